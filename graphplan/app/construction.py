@@ -185,10 +185,8 @@ class PoseSeries:
 @dataclass(frozen=True, repr=False)
 class MotionSeries(NamedResults[Any, Any]):
     """Results of a construction in n poses: by name complex arrays of shape (n,) for vectors, real ones for numbers.
-    `faults` has, by the pose's place, the reason for a pose of nan. `poses` are those of `gp.follow`, if given.
 
-    `faults` says by the pose's place why there is nothing, where all is nan. `poses` are those of `gp.follow`, if they
-    are.
+    `faults` has, by the pose's place, the reason for a pose of nan. `poses` are those of `gp.follow`, if given.
     """
 
     scene: Scene

@@ -173,9 +173,9 @@ class MotionReport:
 
     def table_parts(self, blocks: Iterator[Cycle], path: str, ending: str) -> Iterator[bytes]:
         """Yield a table in parts: rows of each block, or columns after the last one; the table ends at a wrong pose,
-        with `WrongPoses` at the end. Fails with `Refused` if, by the first block, the disk has no room for all.
+        with `WrongPoses` at the end.
 
-        Fails with `Refused` where, by the first block, the disk has no room for all.
+        Fails with `Refused` if, by the first block, the disk has no room for all.
         """
         yield from self._column_parts(blocks, path, ending) if ending in BY_COLUMNS else self._csv_parts(blocks, path)
         if self.wrong:

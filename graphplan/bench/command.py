@@ -33,11 +33,10 @@ from graphplan.mechanism.scene import load, packaged_names
 
 class Survey(NamedTuple):
     """Measurement of a chart, by the module of its name: the content of its rows, and the functions that measure all
-    scenes, or one. For all it is called with the module, the pencil and the progress, and `progress` names the object
-    of a row; for a scene with the module, the scene, the pencil, and whether scenes are named.
+    scenes, or one.
 
-    Of all it is called with the module, the pencil and what tells how far it is, and `progress` says what a row is
-    about; of a scene with the module, the scene, the pencil, and whether scenes are named.
+    For all it is called with the module, the pencil and the progress, and `progress` names the object of a row; for a
+    scene with the module, the scene, the pencil, and whether scenes are named.
     """
 
     row: str

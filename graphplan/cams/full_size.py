@@ -9,8 +9,7 @@ from graphplan.exports.dxf import full_size
 
 
 def profile_dxf(cam: Cam, tolerance: float) -> bytes:
-    """The profile as a closed polyline of arcs, all within the tolerance, about the cam's centre. Beside it, on layers
-    of their own, are the base circle, the path of the roller's centre, and the centre.
+    """The profile as a closed polyline of arcs, all within the tolerance, about the cam's centre.
 
     Beside it, on layers of their own, are the base circle, the path of the roller's centre, and the centre.
     """

@@ -329,8 +329,7 @@ def check_crossing(cam: Cam, faults: Faults) -> None:
 
 
 def _self_crossing(curve: Array) -> complex | None:
-    """Self-intersection of a closed curve; None if no loop of it is larger than rounding of its extent. Where pieces of
-    the law meet, the end of one may lie beyond the beginning of the next by rounding.
+    """Self-intersection of a closed curve; None if no loop of it is larger than rounding of its extent.
 
     Where pieces of the law meet, the end of one may lie beyond the beginning of the next by rounding.
     """

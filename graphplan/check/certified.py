@@ -309,10 +309,9 @@ def _upper_bound(value: Enclosure) -> Fraction:
 
 
 def decimal(value: Enclosure, digits: int, size: Fraction) -> str:
-    """A number with so many significant digits: its own, or those of `size` if it is negligible relative to that. Fails
-    with `Undecided` if the enclosure is too wide.
+    """A number with so many significant digits: its own, or those of `size` if it is negligible relative to that.
 
-    Fails with `Undecided` where the enclosure is too wide.
+    Fails with `Undecided` if the enclosure is too wide.
     """
     error, middle = value.error * 10**SPARE_DIGITS, value.middle
     least = _exponent(size) + 1 - digits

@@ -293,11 +293,9 @@ class PlotQuantity:
 
 def quantities(scene: Scene, names: Sequence[str]) -> tuple[PlotQuantity, ...]:
     """The quantities of these names: links, slides, coordinates such as `B.x`; without names those of the driven links.
+
     Fails with `Refused` if a name is unknown, if there are too many, or if the first drive has no constant rate, so
     that there are no diagrams over time.
-
-    Fails with `Refused` where a name means nothing, where there are too many, or where the first drive has no constant
-    rate, so that there are no diagrams over time.
     """
     drive = scene.drives[0] if scene.drives else None
     if drive is None or not drive.rate or drive.change:

@@ -236,12 +236,10 @@ def poses_rubbed_as_drawn(batch: PoseBatch, drawing: Construction) -> Any:
 
 def _prove_pose(pose: PoseBatch, drawing: Construction, ours: Readings, worst: float) -> dict[str, float]:
     """The differences of one pose that is sound, by group: relative to the proven bounds, or without proven bounds
-    relative to the condition; empty for a pose that is not sound. A pose of a cycle is known to rounding of the
-    mechanism, and so are its numbers: those that are negligible relative to the largest of their kind count relative to
-    that one.
+    relative to the condition; empty for a pose that is not sound.
 
-    A pose of a cycle is known to rounding of the mechanism, and so are its numbers: those that are nothing relative to
-    the largest of their kind count relative to that one.
+    A pose of a cycle is known to rounding of the mechanism, and so are its numbers: those that are negligible relative
+    to the largest of their kind count relative to that one.
     """
     scene = single_pose(pose.posed_scene)
     try:

@@ -76,12 +76,10 @@ class ClosureGroup:
 
     def settle(self, placed: Mapping[str, PoseNumbers], travel: float, state: list[float], size: float,
                 ) -> tuple[list[float], CorrectedPose] | None:
-        """The state that closes the group, and the last step towards it; None if it is not to be trusted. It is trusted
-        only if the first correction is small relative to the `size` of the predicted step, and each further one small
-        relative to the one before.
+        """The state that closes the group, and the last step towards it; None if it is not to be trusted.
 
-        It is only where the first correction is small relative to the `size` of the step that was predicted, and where
-        each further one is small relative to the one before.
+        It is trusted only if the first correction is small relative to the `size` of the predicted step, and each
+        further one small relative to the one before.
         """
         allowed, settled = MAX_FIRST_CORRECTION * size, not self.unknowns
         while True:

@@ -40,14 +40,11 @@ CENTRODE_REACH = 4.0  # of the mechanism's half extent: so far from its middle a
 
 def traced_motion(scene: Scene) -> TracedMotion | None:
     """The part of the motion that the scene's sheet shows, from the given pose as far as the mechanism goes on its
-    branch; None if the sheet shows no motion. The first drive goes through one turn, the others keep pace; one that
-    slides goes to its limits, or without limits as far as the mechanism is large. Positions are at equal travels: of a
-    full turn the given pose is the first, between limits both ends are positions.
+    branch; None if the sheet shows no motion.
 
-    The first drive goes through one turn, the others keep pace; one that slides goes to its limits, or where there are
-    none as far as the mechanism is large. Positions are at equal travels: of a full turn the given pose is the first,
-    between limits both ends are positions. None where nothing is asked for. Fails with `Refused` where the mechanism
-    cannot be followed.
+    The first drive goes through one turn, the others keep pace; one that slides goes to its limits, or without limits
+    as far as the mechanism is large. Positions are at equal travels: of a full turn the given pose is the first,
+    between limits both ends are positions.
     """
     curves, count, rolling = scene.sheet.curves, scene.sheet.positions, scene.sheet.centrodes
     if not scene.sheet.shows_motion:

@@ -284,9 +284,9 @@ class Loop:
 def whole_motion(scene: Scene) -> RangeOfMotion:
     """The whole motion of the mechanism from its given pose: one turn of the first drive, or with gears as many as it
     takes until all is back, if not too many; of a drive that slides to its limits, or without limits as far as the
-    mechanism is large. Fails with `Refused` if it cannot move.
+    mechanism is large.
 
-    Fails with `Refused` where that is nowhere.
+    Fails with `Refused` if it cannot move.
     """
     check_drives(scene)
     motion = range_of_motion(scene)

@@ -85,10 +85,9 @@ def step_layers(sheet: Sheet) -> Layers:
 
 @dataclass
 class Layers:
-    """Layer of each item, and its style there; drawn items are entered first. `steps` are the layers of drawing steps,
-    `sentences` their descriptions, by layer.
+    """Layer of each item, and its style there; drawn items are entered first.
 
-    `steps` are the layers of drawing steps, `sentences` what is said of them, by layer.
+    `steps` are the layers of drawing steps, `sentences` their descriptions, by layer.
     """
 
     steps: Sequence[str]

@@ -130,7 +130,6 @@ class Walk:
 
     def riding(self, plate: Plate, ways: Mapping[str, Spot]) -> Iterator[tuple[Item, Riding]]:
         """Yield the items of the mechanism on its plan, whole, each with its carrier; paths of points have no carrier.
-        Guides of the frame are as long as the `ways` of their slides.
 
         Guides of the frame are as long as the `ways` of their slides.
         """

@@ -116,10 +116,9 @@ class LinkageSketch:
         return key
 
     def link(self, points: Iterable[str], key: str = "", name: str = "") -> str:
-        """Add a link; return its key, which is made if it is empty or taken. Fails with `ValueError` if there are too
-        many.
+        """Add a link; return its key, which is made if it is empty or taken.
 
-        Fails with `ValueError` where there are too many.
+        Fails with `ValueError` if there are too many.
         """
         number = len(self.links)
         if number == MAX_LINKS:

@@ -368,10 +368,9 @@ class Expander:
             self._rewind(before)
 
     def _reach(self, step: Step) -> float:
-        """The largest number from which a mark is made; for lines elsewhere only their directions count. A line through
-        two points is as accurate near the nearer of them as that point is.
+        """The largest number from which a mark is made; for lines elsewhere only their directions count.
 
-        A line through two points is as true beside the nearer of them as that is.
+        A line through two points is as accurate near the nearer of them as that point is.
         """
         if step.op.movement is Movement.RULED:
             return min([self.reach[arg] for arg in step.args])

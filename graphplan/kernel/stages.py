@@ -134,10 +134,9 @@ def tell_stages(steps: Sequence[Staged]) -> list[Stage | None]:
 
 
 def group_by_stage(steps: Sequence[S]) -> list[tuple[Stage, list[S]]]:
-    """The stages of steps in their order, each with its consecutive steps; steps without a stage are left out. A stage
-    that others interrupt, as where each reads the other, occurs once more.
+    """The stages of steps in their order, each with its consecutive steps; steps without a stage are left out.
 
-    A stage that others interrupt, as where each reads the other, is there once more.
+    A stage that others interrupt, as where each reads the other, occurs once more.
     """
     groups: list[tuple[Stage, list[S]]] = []
     for step, stage in zip(steps, tell_stages(steps), strict=True):

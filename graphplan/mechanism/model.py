@@ -303,17 +303,14 @@ class Placement:
 
 @dataclass(frozen=True)
 class Find:
-    """Names of all results that are asked for. Points by `velocity` and `acceleration`; joints and slides (such as `3
-    along 2`) by `reactions`; links whose rates and slides whose velocities and accelerations are wanted; links whose
-    `omega` is, without their alpha; pairs of links (such as `2 frame`) whose instant centres are; points on links (such
-    as `M on 2`), the curvature of whose paths is wanted, and links whose inflection circle is, or whose point without
-    acceleration. None if the scene does not say: then all reactions are found where there are loads, the rates of links
-    of which two points are asked for, and the sliding of pairs whose point is asked for. `by_default` says that the
-    scene has no [find].
+    """Names of all results that are asked for.
 
-    None where nothing is said of them: then all reactions are found where there are loads, the rates of links of which
-    two points are asked for, and the sliding of pairs whose point is asked for. `by_default` says that the scene has no
-    [find].
+    Points by `velocity` and `acceleration`; joints and slides (such as `3 along 2`) by `reactions`; links whose rates
+    and slides whose velocities and accelerations are wanted; links whose `omega` is, without their alpha; pairs of
+    links (such as `2 frame`) whose instant centres are; points on links (such as `M on 2`), the curvature of whose
+    paths is wanted, and links whose inflection circle is, or whose point without acceleration. None if the scene does
+    not say: then all reactions are found where there are loads, the rates of links of which two points are asked for,
+    and the sliding of pairs whose point is asked for. `by_default` says that the scene has no [find].
     """
 
     velocity: tuple[str, ...]

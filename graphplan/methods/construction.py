@@ -172,10 +172,9 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
 
     @cached_property
     def broken_claim(self) -> str:
-        """The first drawn step or compound that breaks a claim, in words; empty if all hold. Steps that cannot be drawn
-        in this pose have no claim to keep. Drawn steps lose digits where curves cross flat.
+        """The first drawn step or compound that breaks a claim, in words; empty if all hold.
 
-        What cannot be drawn in this pose claims nothing. Drawn steps lose digits where curves cross flat.
+        Steps that cannot be drawn in this pose have no claim to keep. Drawn steps lose digits where curves cross flat.
         """
         with suppress(ConstructionError):
             extent, blur = self.scene.extent, self._faithful.blur
@@ -334,6 +333,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
                  workers: int | str = 1, compiled: bool = False,
                  progress: Callable[[int, int], None] | None = None) -> Poses:
         """Evaluate the steps in n poses: `points` has complex arrays of shape (n,); points left out stand still.
+
         `guides` gives, by the names of slides, the directions of guides that ride on moving links and whose direction
         the scene gives as a vector. `loads` gives those that change over the cycle, by their letters: forces as complex
         arrays (P_3, P_3'), moments as real ones (M_1); one left out stays as it is here. `only` names the kinds of
@@ -341,14 +341,6 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
         poses; the address of a dask scheduler sends it the arrays, which takes longer than they do (streams send
         ranges). `compiled` replays in machine code, if numba is installed: the same numbers to the last bit, several
         times faster. `progress` receives the number of finished poses, and of all.
-
-        `guides` gives, by the names of slides, the directions of guides that ride on moving links and whose direction
-        the scene gives as a vector. `loads` gives those that change over the cycle, by their letters: forces as complex
-        arrays (P_3, P_3'), moments as real ones (M_1); one left out stays as it is here. `only` names the kinds of
-        results that are wanted, such as velocity and acceleration: nothing else is reckoned. `workers` threads share
-        the poses out; the address of a dask scheduler sends it the arrays, which takes longer than they do (streams
-        send ranges). `compiled` replays in machine code, where numba is installed: the same numbers to the last bit,
-        several times faster. `progress` is told how many are done, of how many.
         """
         from graphplan.methods.replay import batch
 

@@ -234,8 +234,6 @@ class ColumnSpool:
 class JsonTable:
     """JSON: `travel`, `points` and each kind of result by name as lists, vectors as [x, y]; null where there is none;
     of forces `size` and `direction`, and `largest` with its place; `efficiency`.
-
-    `faults` says why, by the pose's place; what is found of the whole motion stands there too.
     """
 
     def __init__(self, scene: Scene, folder: str):

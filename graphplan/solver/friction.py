@@ -257,10 +257,9 @@ class Rubbing:
 
 
 def rubbing(scene: Scene, rates: Rates, moves: Sense | None = None) -> Rubbing:
-    """The frictions of the scene, with the senses of these rates; zero for a pair at rest. A rate within rounding of
-    the fastest motion counts as rest, unless `moves` decides otherwise.
+    """The frictions of the scene, with the senses of these rates; zero for a pair at rest.
 
-    What rounding could make of what moves fastest does not move, but for what another sense says.
+    A rate within rounding of the fastest motion counts as rest, unless `moves` decides otherwise.
     """
     loads, reach, still = required_loads(scene), rates.equations.reach, standstill(rates)
     moves = moves or (lambda rate, scale: sign(float(rate) * scale, still))

@@ -86,10 +86,9 @@ BY_KIND = {"guidance": synthesize_guidance, "function": synthesize_function, "st
 
 
 def find_mechanism(task: SynthesisTask, number: int = 1) -> Synthesis:
-    """Solve a task, with the solution of this number chosen. Fails with `NoMechanism` if there is no solution, and with
-    `Refused` if there are fewer.
+    """Solve a task, with the solution of this number chosen.
 
-    Fails with `NoMechanism` where there is none, and with `Refused` where there are fewer.
+    Fails with `NoMechanism` if there is no solution, and with `Refused` if there are fewer.
     """
     synthesis = BY_KIND[task.kind](task)
     count = max(1, len(synthesis.linkages))

@@ -27,10 +27,9 @@ PLAN = Panel("synthesis", said("synthesis"), said("The mechanism found"))
 @dataclass(frozen=True)
 class Synthesis:
     """Result of a synthesis: linkages, best first, or a wheel or profile; the drawing of each, and further `results`.
+
     Of a path `given` is the linkage that draws it, `path` the path as far as it goes, `stretch` the part that is asked
     for.
-
-    Of a path `given` is the linkage that draws it, `path` the path as far as it goes, `stretch` what is asked of it.
     """
 
     task: SynthesisTask

@@ -37,12 +37,10 @@ from graphplan.synthesis.requests import (
 
 @dataclass(frozen=True)
 class SynthesisTask(SheetTask):
-    """The keys of a task: `kind` is its table, `request` the content of that. `text` is the task as it was written,
-    `vary` are its numbers that differ from student to student; `centres_by` names the three of more points by which a
-    centre of that letter is drawn.
+    """The keys of a task: `kind` is its table, `request` the content of that.
 
-    `text` is the task as it was written, `vary` which of its numbers differ from student to student; `centres_by` says
-    by which three of more points a centre of that letter is drawn.
+    `text` is the task as it was written, `vary` are its numbers that differ from student to student; `centres_by` names
+    the three of more points by which a centre of that letter is drawn.
     """
 
     kind: str

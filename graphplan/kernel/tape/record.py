@@ -236,16 +236,12 @@ TWICE = "sign"  # names its operands twice: they must be names
 
 
 class Language(NamedTuple):
-    """Notation of a language for numbers, operations, statements and questions. Operations are those of the tape by
-    sign, with {0}, {1} for their operands; `sign` has a third place, for the part of {1} below which {0} counts as
-    zero. `{name}` is the name of the result, where it must be known. A statement gives {1} the name {0}. A question is
-    asked of {0}: nonzero relative to {2} times {1}, or not negative; what follows from a no stands there too. If it
-    `loads`, an input has a statement of its own.
+    """Notation of a language for numbers, operations, statements and questions.
 
-    Operations are those of the tape by sign, with {0}, {1} for what they work on; `sign` has a third place, for the
-    part of {1} beside which {0} is nothing. `{name}` is how the result is called, where it must be known. A statement
-    gives {1} the name {0}. A question is asked of {0}: nonzero beside {2} times {1}, or not negative; what follows from
-    a no stands there too. Where it `loads`, an input has a statement of its own.
+    Operations are those of the tape by sign, with {0}, {1} for their operands; `sign` has a third place, for the part
+    of {1} below which {0} counts as zero. `{name}` is the name of the result, where it must be known. A statement gives
+    {1} the name {0}. A question is asked of {0}: nonzero relative to {2} times {1}, or not negative; what follows from
+    a no stands there too. If it `loads`, an input has a statement of its own.
     """
 
     number: Callable[[float], str]

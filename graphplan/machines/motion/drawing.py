@@ -282,8 +282,7 @@ class MotionDrawing:
 
 def draw_motion(motion: TrueMotion, strips: int,
                 room: PanelSize | None = None) -> MotionDrawing | None:
-    """The construction of a motion in so many strips; None if it stops within the first three. Each strip has the
-    moment of its middle, that of loads over a speed at the speed there.
+    """The construction of a motion in so many strips; None if it stops within the first three.
 
     Each strip has the moment of its middle, that of loads over a speed at the speed there.
     """

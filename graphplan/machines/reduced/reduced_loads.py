@@ -67,9 +67,8 @@ class Recordings:
     def evaluate(self, turn: Turn, wanted: Collection[str] | None = None, gaps: bool = False,
                  **given: Mapping[str, Array]) -> Results:
         """The results of the wanted kinds, or of all, in the poses of a turn; with `gaps` nan if there are no results.
-        Else it fails with `Refused` if no construction is valid in a pose.
 
-        Else it fails with `Refused` where no construction serves in a pose.
+        Else it fails with `Refused` if no construction is valid in a pose.
         """
         results, why = Results(), ""
         remaining = np.arange(len(turn.travel))

@@ -79,8 +79,7 @@ def file_digest(path: Path) -> str:
 
 def run_jobs(work: Callable[[Job], Data], jobs: Mapping[str, Job], keeper: Keeper, processes: int
               ) -> Iterator[tuple[str, Data]]:
-    """Yield the result of each job, by its key, as it is done: kept ones first, and new ones are kept. A job is data
-    that can go to another process, `work` a function of a module.
+    """Yield the result of each job, by its key, as it is done: kept ones first, and new ones are kept.
 
     A job is data that can go to another process, `work` a function of a module.
     """

@@ -345,10 +345,9 @@ def _parse_assignment(told: str, student: str, variant: str, register: ClassRegi
 
 def place_pages(stack: Iterable[SeenPage], register: ClassRegister,
                 assigned: Mapping[str, Assignment]) -> list[PlacedPage]:
-    """Place every page, in the order of the stack. Fails with `Refused` if a page without a code is assigned to a
-    student without a sheet.
+    """Place every page, in the order of the stack.
 
-    Fails with `Refused` where a page without a code is assigned to a student who has no sheet.
+    Fails with `Refused` if a page without a code is assigned to a student without a sheet.
     """
     placed_pages = [_place_page(seen_page, decode_page(seen_page.sight, register), register,
                                 assigned.get(seen_page.page.name))

@@ -325,10 +325,9 @@ def _command_arguments(element: Element | None) -> list[str]:
 
 
 def stated_value(element: Element) -> Any:
-    """The value that the file states for an object; None if it is missing or undefined. Fails with `ValueError` if a
-    number is not readable.
+    """The value that the file states for an object; None if it is missing or undefined.
 
-    Fails with `ValueError` where a number is none.
+    Fails with `ValueError` if a number is not readable.
     """
     kind, coords = element.get("type"), element.find("coords")
     if kind in ("numeric", "angle"):

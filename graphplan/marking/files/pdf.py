@@ -34,7 +34,7 @@ LEADER_LOOK = LEADER.colour, LEADER.width
 def read_pdf(path: File, frames: Frames, size: tuple[float, float] | None,
              has_corner_marks: Callable[[], bool]) -> Submission | None:
     """The things drawn on the first page of a PDF; on graphplan's own sheet of this size plans lie where its frames
-    are. None if the page is to be read as a picture, or is missing. Fails with `Refused` as other drawings do.
+    are. None if the page is to be read as a picture, or is missing.
 
     Fails with `Refused` as other drawings do.
     """

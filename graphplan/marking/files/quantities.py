@@ -165,10 +165,9 @@ POWER_OF_TEN = re.compile(r"10\^?\(?([+-]?[0-9]{1,2})\)?")
 
 
 def unit_factor(written: str, dimension: Dimension, units: Units) -> float:
-    """Factor from a written unit to the scene's units of this dimension. Fails with `ValueError` if it is unknown, or
-    of another dimension.
+    """Factor from a written unit to the scene's units of this dimension.
 
-    Fails with `ValueError` where it is no unit, or none of this dimension.
+    Fails with `ValueError` if it is unknown, or of another dimension.
     """
     product, powers = 1.0, [0, 0, 0]
     for name, power in _unit_factors(written):

@@ -497,12 +497,10 @@ def has_frame(strokes: Sequence[Trace], size: tuple[float, float]) -> bool:
 
 def read_blank_paper(path: Path, marks: Marks, frames: Frames, usual: tuple[float, float]) -> Submission | None:
     """Read a drawing on blank or squared paper, in mm, and the frames of its plans; None if no two lettered points are
-    found, or lines are printed about it. Fails with `Refused` if a plan may lie at several places. `marks` are the
-    places of the task's marks on its plans, in their units, the beginning of each first; of the mechanism its given
-    points. `frames` are those of the task's sheet, whose paper is usually of this size, in mm.
+    found, or lines are printed about it. Fails with `Refused` if a plan may lie at several places.
 
-    `marks` are where the task has the marks of its plans, in their units, the beginning of each first; of the mechanism
-    its given points. `frames` are those of the task's sheet, whose paper is usually of this size, in mm.
+    `marks` are the places of the task's marks on its plans, in their units, the beginning of each first; of the
+    mechanism its given points. `frames` are those of the task's sheet, whose paper is usually of this size, in mm.
     """
     for picture in read_pictures(path):
         image, dpi = shrink(picture, measures.MAX_PAGE_PX), stated_dpi(path, picture)

@@ -171,10 +171,9 @@ def _faces_mark(rim: Spots, far: Spots, way: Sizes) -> bool:
 
 def find_marks(image: Grey, code: int | None, name: str) -> dict[int, Spots]:
     """The marks of the sheet with this code, or without a code those of any sheet: by their corner, each as its own
-    four corners in pixels, upper left, upper right, lower right, lower left as it was printed. Fails with `Refused` if
-    the marks are those of another sheet.
+    four corners in pixels, upper left, upper right, lower right, lower left as it was printed.
 
-    Fails with `Refused` where the marks are those of another sheet.
+    Fails with `Refused` if the marks are those of another sheet.
     """
     detected_marks = detect_marks(image)
     if code is None:

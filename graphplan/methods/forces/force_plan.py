@@ -127,10 +127,9 @@ class ForcePolygon(FreeBodies):
     def _moments(self, part: Part, site: UnknownForce, about: statics.About, X: Mark, sign: int,
                  base: Mark | None = None) -> Span | None:
         """The force at X, perpendicular to its line, that balances all known forces on the part; None if there is no
-        such force. If the part begins the group's chain it is laid off backwards, so that it ends where the chain
-        starts.
+        such force.
 
-        Where the part begins the group's chain it is laid off backwards, so that it ends where the chain starts.
+        If the part begins the group's chain it is laid off backwards, so that it ends where the chain starts.
         """
         backwards = base is None and self.group.links[0] in part and self.group.is_outer(site) and sign > 0
         start, end = self.polygon(part) if base is None else (base, base)

@@ -291,13 +291,11 @@ class CircleDiagram:
 
 
 class _GraphClosure:
-    """Sides of a circle diagram that the graph can close. `weights` are the numbers of other sides that each depends
-    on, without those that are found before. `thirds` are the links by which each that closes has the two lines with the
-    fewest such sides; "" is a known line.
+    """Sides of a circle diagram that the graph can close.
 
     `weights` are on how many others sides rest, none of those that are found before. `thirds` are the links by which
-    each that closes has the two lines that rest on the fewest; "" is that of a known line.
-    Lines through one place are one there: links of one joint have their poles with another link on one line.
+    each that closes has the two lines that rest on the fewest; "" is that of a known line. Lines through one place are
+    one there: links of one joint have their poles with another link on one line.
     """
 
     def __init__(self, diagram: CircleDiagram):

@@ -131,8 +131,7 @@ class Image:
 
 
 def shift_mark(board: Board, mark: Mark, one: Mark, two: Mark) -> Mark:
-    """A point or line shifted by the vector from one mark to another; the mark itself if these are one. The other mark
-    may begin another plan: a point that is laid off from the one is laid off from the other.
+    """A point or line shifted by the vector from one mark to another; the mark itself if these are one.
 
     The other mark may begin another plan: a point that is laid off from the one is laid off from the other.
     """

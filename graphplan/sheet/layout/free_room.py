@@ -33,15 +33,12 @@ Cells = NDArray[np.bool_]  # by rows from below
 
 def places_in_free_room(space: Rect, items: Iterable[Item], facts: FactRows, title: Rect) -> tuple[FactPlace, ...]:
     """Places for given and found among the items of the plans, in letters as large as there is room for, those of the
-    results first. Both in one block, the nearest to the title block, if that has large letters; else each in its own,
-    given from the upper left and found from the lower right; empty if there is no room for both. If they would be read
-    in the wrong order, the first way in the right order is taken, if there is one: from above and below, or from the
-    left and the right.
+    results first.
 
-    Both in one block, the nearest to the title block, where that has large letters; else each in its own, what is given
-    from the upper left and what was found from the lower right; none where there is not room for both. Where they would
-    be read in the wrong order, the first way in which they are not is taken, if there is one: from above and below, or
-    from the left and the right.
+    Both in one block, the nearest to the title block, if that has large letters; else each in its own, given from the
+    upper left and found from the lower right; empty if there is no room for both. If they would be read in the wrong
+    order, the first way in the right order is taken, if there is one: from above and below, or from the left and the
+    right.
     """
     room, large = FreeRoom(space, items), LARGE_SHEET.times
     layers = tuple(layer for layer, some in ((FOUND, facts.found), (GIVEN, facts.given)) if some)

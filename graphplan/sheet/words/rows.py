@@ -192,10 +192,9 @@ Off = Mapping[str, Deviation]  # how far off results are drawn, by name; empty w
 def vector_table(say: Tongue, what: str, letter: str, unit: str, values: Mapping[str, Any], order: Iterable[str],
                  off: Off,
                  beside: Mapping[str, Any], spoken: Callable[[str], str]) -> Table:
-    """Components, magnitudes and deviations, each row with its name first; empty without values. The head has the
-    object, the letter and the unit; names may be `spoken` in another way.
+    """Components, magnitudes and deviations, each row with its name first; empty without values.
 
-    The head tells what has them, their letter and their unit; names may be `spoken` in another way.
+    The head has the object, the letter and the unit; names may be `spoken` in another way.
     """
     head = [sentence_runs(text) for text in (what, f"{letter}_x", f"{letter}_y", f"|{letter}| {unit}")]
     components = {name: (*values[name], magnitude(*values[name])) for name in order if name in values}

@@ -152,7 +152,8 @@ class Alternatives:
                 drawing = draw(self.plan, way, design)
         if drawing.fault:
             self.faults.setdefault(design.forces, drawing.fault.why)
-        return Candidate(drawing, cost(drawing, self.pencil, departs))
+        closes_by_rounding = design.ways and drawing.has_numbers and drawing.broken_claim
+        return Candidate(drawing, UNDRAWABLE if closes_by_rounding else cost(drawing, self.pencil, departs))
 
     def _proportional_design(self, drawing: Construction) -> Design:
         """The design of a construction with vectors in proportion, as far as they are not given."""

@@ -135,6 +135,12 @@ def test_small_vectors_beside_large_plans_are_drawn(name: str, d: float, wishes:
     assert error(as_drawn(construct(scene, wishes)), scene) <= MAX_LOST_DRAWN * EPSILON * solve(scene).condition
 
 
+@pytest.mark.parametrize("d", [10**-6.5, 10**-10.5, 10**-13.5])
+def test_a_ring_that_closes_by_rounding_alone_is_not_drawn(d: float) -> None:
+    """A way whose trials differ by rounding alone breaks the claims of its own steps: another way is drawn."""
+    assert not construct(SWEEPS["pole at infinity"].scene_at(d)).broken_claim
+
+
 @pytest.mark.parametrize("d", [1e-6, 1e-11, 1e-13])
 def test_forces_are_found_where_floats_hold_the_pose_for_singular(d: float) -> None:
     """Of a loaded triad a hair from its singular pose all is told, and drawn as well as floats can."""

@@ -14,7 +14,9 @@ from itertools import combinations, product
 from graphplan.design.cost import UNDRAWABLE, DesignCost, cost
 from graphplan.design.hand import Pencil
 from graphplan.design.proportion import better_kappa, better_phi, other_kappas
-from graphplan.errors import Refused
+from graphplan.errors import ConstructionError, Refused
+from graphplan.kernel.numbers import Fractions
+from graphplan.kernel.program import evaluate
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import FORCE_ORDERS
 from graphplan.methods.construction import Construction
@@ -91,6 +93,15 @@ def general_construction(scene: Scene, wishes: Design = OPEN) -> Construction:
     return draw(plan, plan.way_by(), replace(design, plan=f"{design.motion},polygons"))
 
 
+def _rings_close(drawing: Construction) -> bool:
+    """Whether trials differ in fractions, too: in floats equal ones may differ by rounding and close a ring wrongly."""
+    try:
+        evaluate(drawing.program, Fractions())
+    except ConstructionError as error:  # an irrational length is no fault of a trial
+        return error.code != "trials-agree"
+    return True
+
+
 class Alternatives:
     """The designs of a scene that can be chosen among, each drawn and weighed once; `first` is the textbook's.
 
@@ -152,8 +163,8 @@ class Alternatives:
                 drawing = draw(self.plan, way, design)
         if drawing.fault:
             self.faults.setdefault(design.forces, drawing.fault.why)
-        closes_by_rounding = design.ways and drawing.has_numbers and drawing.broken_claim
-        return Candidate(drawing, UNDRAWABLE if closes_by_rounding else cost(drawing, self.pencil, departs))
+        closes = not design.ways or not drawing.has_numbers or _rings_close(drawing)
+        return Candidate(drawing, cost(drawing, self.pencil, departs) if closes else UNDRAWABLE)
 
     def _proportional_design(self, drawing: Construction) -> Design:
         """The design of a construction with vectors in proportion, as far as they are not given."""

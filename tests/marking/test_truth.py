@@ -70,3 +70,15 @@ def test_a_removed_end_of_a_scan_is_not_credited(tmp_path: Path) -> None:
     verdicts = {(row["kind"], row["of"]): row["verdict"] for row in one.data["results"]}
     assert verdicts["velocity", "B"] == "unsure"
     assert one.score < 97.0
+
+
+def test_a_number_of_the_task_names_its_own_mark(tmp_path: Path) -> None:
+    """A wrong mark that bears the number of its step is wrong, whatever else is right: no other order is thought of."""
+    steps = ran("steps", "four-bar", "--plan", "polar", "--json").json["steps"]
+    step = next(step for step in steps if step["makes"] == "m")
+    wrong = complex(*step["paper"]) + 6
+    rows = [row for row in points("four-bar").splitlines() if not row.startswith("m,")]
+    rows.append(f"{step['number']},{wrong.real:.2f},{250 - wrong.imag:.2f},{step['plan']}")
+    found = verdict(tmp_path, "\n".join(rows))
+    assert found["reading"] == ""
+    assert found["first_wrong"]["step"] == step["number"]

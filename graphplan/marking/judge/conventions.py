@@ -92,9 +92,25 @@ class Proposer:
 
     def readings(self) -> Iterator[SheetReading]:
         """The readings that something on the sheet speaks for."""
-        yield from self._readings_at_points()
+        at_points = self._readings_at_points()
+        yield from at_points
+        for reading in (replace(self.task, submission=self.labelled), *at_points):
+            yield from self._renumbered_readings(reading)
         if "polar" in (self.plan or "polar") and not self.labelled.page:
             yield from self._polar_readings()
+
+    def _renumbered_readings(self, reading: SheetReading) -> Iterator[SheetReading]:
+        """With the numbers at its marks in an order of the student's own, so that they tell only that these are marks,
+        if one of them is a number that no such mark of the task has."""
+        drawn, traces = self.task.drawing.drawn, reading.submission.traces
+        marks = {(str(drawn.number(step.index)), step.op.gives) for step in drawn.steps}
+        numbered = frozenset(place for place, trace in enumerate(traces) if trace.label.isdigit())
+        if any((traces[place].label, traces[place].kind) not in marks for place in numbered):
+            nameless_traces = tuple(replace(trace, label="") if place in numbered else trace
+                                    for place, trace in enumerate(traces))
+            yield replace(reading, submission=replace(reading.submission, traces=nameless_traces), numbered=numbered,
+                          prior=reading.prior + measures.RENUMBERED_ODDS,
+                          remarks=(*reading.remarks, said("steps numbered in another order")))
 
     # ---- velocities drawn from their points ------------------------------------------------------------------------
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, combinations, permutations
@@ -49,7 +49,8 @@ class SheetReading:
     `remarks` say what differs from the task, `scaled` the plan whose k_v is told with that; `prior` is how unlikely it
     is, in natural logarithms of odds, `departs` how many of the scale and the sense of velocities are others than the
     task's. `task` is the task's sheet; `asked` are the steps whose marks a drawing is to
-    have, if not all; `exchanged` two traces, by their places, that had each other's letters, which are put right.
+    have, if not all; `exchanged` two traces, by their places, that had each other's letters, which are put right;
+    `numbered` are those whose numbers are left out: each point is to be a mark of the construction.
     """
 
     drawing: Construction
@@ -61,6 +62,7 @@ class SheetReading:
     departs: int = 0
     asked: frozenset[int] | None = None
     exchanged: tuple[int, ...] = ()
+    numbered: frozenset[int] = frozenset()
 
     @cached_property
     def on_task(self) -> Composition | None:
@@ -238,6 +240,33 @@ class FrameFinder:
                 yield (replace(fit, frame=PlanFrame(sheet - unit * plan, unit), aligned=MECHANISM),
                        measures.SUREST_VECTOR_STEPS if is_surest else measures.RESCALED_STEPS)
 
+    def printed_panels(self, fits: Mapping[str, Fit]) -> frozenset[str]:
+        """Plans of the task's sheet on which this drawing lies as printed, by these expected frames: the mechanism at
+        its printed scale, and a plan at its printed place, or most marks of another one at the printed scale."""
+        views, mechanism = self.reading.task.views, fits[MECHANISM].frame
+        if self.reading.on_task is None or not self.reading.has_printed_scale(mechanism):
+            return frozenset()
+        panels = [panel for panel in self.panels[1:] if panel in views and panel not in self.submission.frames]
+        if any(self._is_at_printed_place(panel, fits) for panel in panels):
+            return frozenset((MECHANISM, *panels))
+        witnesses = {panel for panel in panels if not self.reading.departs and self._has_printed_marks(panel, fits)}
+        return frozenset(panel for panel in (MECHANISM, *panels) if witnesses - {panel})
+
+    def _is_at_printed_place(self, panel: str, fits: Mapping[str, Fit]) -> bool:
+        """Whether a plan, of which a mark is labelled, lies to the mechanism as it is printed."""
+        views, mechanism = self.reading.task.views, fits[MECHANISM]
+        offset = complex(*views[panel].origin) - complex(*views[MECHANISM].origin)
+        origin = mechanism.frame.origin + offset * mechanism.frame.unit / abs(mechanism.frame.unit)
+        tolerance = measures.FRAME_SIGMAS * math.hypot(2.0 * self._label_deviation, mechanism.turn * abs(offset))
+        return bool(self._labelled_pairs(panel)) and abs(fits[panel].frame.origin - origin) < tolerance
+
+    def _has_printed_marks(self, panel: str, fits: Mapping[str, Fit]) -> bool:
+        """Whether most marks lie to their plan's beginning as they do at the printed scale."""
+        unit = fits[panel].frame.unit
+        plan, sheet = self._plan_anchor(panel, unit) or (0j, 0j)
+        agreements = [abs(own / unit - 1) < measures.SAME_SIZE_SHARE + 3 * sigma
+                      for own, sigma in self._anchored_units(panel, plan, sheet)]
+        return 2 * sum(agreements) > len(agreements)
 
     def _plan_anchor(self, panel: str, unit: complex) -> Pair | None:
         """Labelled beginning of a plan, unless other marks agree on another where strokes end; if its label may be
@@ -466,10 +495,9 @@ def frame_turn(fit: Fit, unit: complex) -> float:
     return 0.0 if ratio.real > 0 and abs(ratio.imag) < sine * abs(ratio) else cmath.phase(ratio)
 
 
-def departures(own: Sequence[Fit], is_printed: bool, others: int = 0) -> float:
-    """As how many mistakes it counts that plans have frames of their own, and `others` their scale or sense: plans of
-    one scale once, and on a mechanism of the printed scale the first more than a wrong vector, as all scales are
-    printed then."""
+def departures(own: Collection[Fit], is_printed: bool, others: int = 0) -> float:
+    """Count of mistakes for plans in frames of their own, and for `others`, the scale and sense of velocities: plans of
+    one scale count once, and the first, where its scale is printed, more than a wrong vector."""
     scales, redirected = list[Fit](), sum(not fit.aligned for fit in own)
     for fit in own:
         if fit.aligned and all(frame_stretch(fit, known.frame.unit) != 1.0 for known in scales):

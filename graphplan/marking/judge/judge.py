@@ -25,7 +25,7 @@ from graphplan.marking.judge.frames import FrameFinder, SheetReading, departures
 from graphplan.marking.judge.lettering import is_sure, labelled_steps, name_marks
 from graphplan.marking.judge.matching import Matching, count_wrong, matches_on
 from graphplan.marking.judge.numbers import judge_numbers, results_drawn_right, true_results
-from graphplan.marking.judge.search import Search, likelihood
+from graphplan.marking.judge.search import Search, likelihood, wrong_arrow
 from graphplan.marking.judge.student_sheet import Fit, SharedMarks, StudentSheet
 from graphplan.marking.judge.verdict import WRONG, FaultCount, Judgement
 from graphplan.marking.judge.verdicts import verdicts
@@ -34,6 +34,7 @@ from graphplan.marking.judge.whole_plans import (
     are_surely_lettered,
     deviating_plans,
     exchanged_pairs,
+    has_given_scale,
     with_exchanged,
     with_whole_plans,
 )
@@ -79,6 +80,7 @@ class Judge:
         self.labels = labelled_steps(self.drawing, plan_of_step, traces)
         printed_marks = SharedMarks(self.drawing, plan_of_step, self.submission.frames)
         self.labels |= printed_marks.labels_of_others(self.submission, self.labels)
+        self.printed_panels: frozenset[str] = frozenset()  # the plans of the printed sheet on which it is drawn
         self.orphaned_marks = find_orphans(self.drawing, self.submission)
         certain = (place for place in self.labels.values()
                    if is_sure(traces[place]) or not (self.has_nameless_marks or traces[place].kind != POINT))
@@ -110,7 +112,18 @@ class Judge:
         if pairs and not put_right:
             self.labels |= {step: self.labels[partner] for pair in pairs for step, partner in (pair, pair[::-1])}
             matching = self.matching(self.fits, measures.MAX_MISTAKES)
-        return matching
+        return self._with_wrong_arrows(matching)
+
+    def _with_wrong_arrows(self, matching: Matching) -> Matching:
+        """The way on which vectors go the wrong way that only arrows show."""
+        mistake = wrong_arrow(matching, self.submission)
+        return self._with_wrong_arrows(self._taking(matching, {mistake.step.index: mistake})) if mistake else matching
+
+    def _taking(self, matching: Matching, taken: Mapping[int, Any]) -> Matching:
+        """The same way, but for what some steps are taken for."""
+        rival = self._start_matching(self.fits)
+        rival.odds = matching.odds
+        return rival.match_until(len(matching.steps), {**matching.taken, **taken})
 
     @property
     def with_seen_pencil(self) -> Judge:
@@ -140,7 +153,8 @@ class Judge:
             join(self._reading_words()), self.hand if self.hand.marks else None, unasked, self.submission.left_out,
             [step.op for step in self.drawing.drawn.steps] == [
                 step.op for step in self.reading.task.plans.drawing.drawn.steps],
-            drawn_right=results_drawn_right(matching, true))
+            drawn_right=results_drawn_right(matching, true,
+                                            {plan.panel for plan in self.deviating_plans if plan.kind}))
 
     @property
     def deviating_plans(self) -> list[WholePlan]:
@@ -149,12 +163,26 @@ class Judge:
         return list(deviating_plans(self.reading, panels, self.fits))
 
     @property
+    def unused_numbers(self) -> int:
+        """Number of points whose numbers the reading leaves out and that are no marks of the construction."""
+        traces = self.likeliest.traces
+        needed = {traces[place].spots for place in self.likeliest.used | self.likeliest.over}
+        return sum(traces[place].kind == POINT and traces[place].spots not in needed
+                   for place in self.reading.numbered)
+
+    @property
+    def acquits(self) -> bool:
+        """Whether points whose numbers the reading leaves out are no marks, and it calls nothing wrong."""
+        return bool(self.unused_numbers and not self.judgement.fault_count.wrong)
+
+    @property
     def fault_count(self) -> FaultCount:
         """The number of faults of the reading, that it departs from the printed scales among them."""
-        faults, is_printed = self.judgement.fault_count, self.reading.has_printed_scale(self.fits[MECHANISM].frame)
-        own = [fit for panel, fit in self.fits.items() if panel != MECHANISM and not fit.tied
-               and panel not in self.submission.frames]
-        return faults._replace(wrong=faults.wrong + departures(own, is_printed, self.reading.departs))
+        fits = [fit for panel, fit in self.fits.items()
+                if panel != MECHANISM and not fit.tied and panel in self.printed_panels]
+        departs = self.reading.departs if MECHANISM in self.printed_panels else 0
+        faults = self.judgement.fault_count
+        return faults._replace(wrong=faults.wrong + departures(fits, True, departs) + self.unused_numbers)
 
     @property
     def has_faults(self) -> bool:
@@ -163,6 +191,8 @@ class Judge:
 
     def explains_more(self, rival: Judge) -> bool:
         """Whether its faults speak for it, or else whether all that it explains does."""
+        if self.acquits:
+            return False
         mine, its = self.fault_count, rival.fault_count
         if mine.leaves_less_over(its) or its.leaves_less_over(mine):
             return mine.leaves_less_over(its)
@@ -177,6 +207,7 @@ class Judge:
                       for number in judgement.numbers)
         return (self._prior + likelihood(self.likeliest) + numbers
                 + measures.STRANGE_LETTER_ODDS * judgement.fault_count.strange_letters
+                + measures.UNNAMED_MISTAKE_ODDS * self.unused_numbers
                 + sum(measures.KNOWN_MISTAKE_ODDS if kind else measures.UNNAMED_MISTAKE_ODDS for kind in wrong))
 
     @cached_property
@@ -244,22 +275,26 @@ class Judge:
         return self._with_rivals(fits, register)
 
     def _with_rivals(self, fits: dict[str, Fit], register: FrameFinder) -> dict[str, Fit]:
-        """The frames of the plans with which all of the drawing needs fewest mistakes: those of the task's sheet, or of
-        their own, which count as mistakes as well."""
+        """The frames of the plans that explain their own steps best; of those of the printed sheet the ones with which
+        all of the drawing needs fewest mistakes, and that they are others counts as mistakes as well."""
         best = self._fit_plans(fits, register, register.panels[1:])
+        self.printed_panels = frozenset(panel for panel in register.printed_panels(fits)
+                                        if panel == MECHANISM or not has_given_scale(self.reading, panel))
         least = self._mistakes_in(best, fits)
-        panels = [panel for panel, fit in best.items() if fit is not fits[panel]][:measures.MAX_OWN_FRAMES]
+        panels = [panel for panel, fit in best.items()
+                  if fit is not fits[panel] and panel in self.printed_panels][:measures.MAX_OWN_FRAMES]
+        free = {*register.panels[1:]} - {*panels}
         for freed in chain.from_iterable(combinations(panels, count) for count in range(len(panels))):
-            tried = self._fit_plans(fits, register, freed)
+            tried = self._fit_plans(fits, register, {*free, *freed})
             if (wrong := self._mistakes_in(tried, fits)) <= least:
                 least, best = wrong, tried
         return best
 
     def _mistakes_in(self, fits: Mapping[str, Fit], expected: Mapping[str, Fit]) -> float:
-        """How many marks are wrong in these frames, and as how many these count beside the expected ones."""
+        """Count of marks that are wrong in these frames, and of mistakes that these are beside the expected ones."""
         wrong = count_wrong(self._start_matching(fits).match_until(len(self.drawing.drawn.steps)).matches)
-        return wrong + departures([fit for panel, fit in fits.items() if fit is not expected[panel]],
-                                  self.reading.has_printed_scale(fits[MECHANISM].frame))
+        departing = {panel: fit for panel, fit in fits.items() if fit is not expected[panel]}
+        return wrong + departures(departing.values(), not self.printed_panels.isdisjoint(departing))
 
     def _fit_plans(self, fits: dict[str, Fit], register: FrameFinder, freed: Collection[str]) -> dict[str, Fit]:
         """The frames of the plans, of the freed ones those that explain their own steps best, one after the other."""

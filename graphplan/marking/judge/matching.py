@@ -235,6 +235,10 @@ class Matching:
         residuals = [self.residual(step, value, place, basis) for value, basis in candidates]
         begun, sure = step.op.movement is Movement.BEGUN, is_sure(self.traces[place])
         fits = [not sure or off.distance < measures.DRIFT_MM if begun else off.fits(self.chance) for off in residuals]
+        if not any(fits) and (equivalent := self._protocol_value(step)):
+            candidates.append(equivalent)
+            residuals.append(self.sheet.residual(step, equivalent[0], spots, equivalent[1]))
+            fits.append(residuals[-1].fits(self.chance))
         state = WRONG if not any(fits) else FOLLOWS if not fits[-1] else RIGHT
         by = fits.index(True) if any(fits) else 0
         seen_value = self.sheet.value_of_trace(step, own_value, spots,
@@ -245,6 +249,17 @@ class Matching:
             seen_value = candidates[by][0]
         return self._append(Match(step, state, candidates[by][0], place, residuals[by], weight=weight),
                             seen_value, seen_value if fits[-1] else mended_value)
+
+    def _protocol_value(self, step: Step) -> tuple[Any, Sequence[Any]] | None:
+        """Place to which the length leads that the protocol tells for a step, laid off from the student's own mark."""
+        if step.op.gives != POINT or step.op.root is None:
+            return None
+        root, basis = step.args[step.op.root], list(self.sheet.drawing.values)
+        basis[root] = self.own[root]
+        try:
+            return self.sheet.expected_value(step, basis), basis
+        except Undrawable:
+            return None
 
     def take_mistake(self, mistake: Mistake) -> Matching:
         """Take a mistake for what was done at the next step: what is drawn where it leads, or a mark that is not to be

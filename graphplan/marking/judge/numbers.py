@@ -8,7 +8,8 @@ one pose has those of a cycle: they are judged beside what is expected of them.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -16,6 +17,7 @@ import numpy as np
 
 from graphplan.design.cost import reading_errors, readings
 from graphplan.design.hand import variances
+from graphplan.errors import ConstructionError
 from graphplan.kernel.numbers import Floats
 from graphplan.marking.files.quantities import in_scene_units, scene_unit
 from graphplan.marking.judge import measures
@@ -92,15 +94,28 @@ def true_results(matching: Matching) -> dict[Key, TrueResult]:
     return results
 
 
-def results_drawn_right(matching: Matching, true: Mapping[Key, TrueResult]) -> frozenset[Key]:
-    """The results that the student's own marks show as they truly are, as far as those were read."""
-    right = set[Key]()
-    for reading, _, value in readings(matching.sheet.drawing, matching.own, matching.sheet.domain):
-        error = math.sqrt(float(np.sum(variances(matching.sheet.domain, value))))
+def results_drawn_right(matching: Matching, true: Mapping[Key, TrueResult], deviating: Collection[str]
+                        ) -> frozenset[Key]:
+    """The results that the student's own marks show as they truly are, as far as those were read; none of a deviating
+    plan, which shows them at another scale or in another direction."""
+    right, sheet = set[Key](), matching.sheet
+    for reading, _, value in _own_readings(matching):
+        homes = {sheet.plan_of_step[sheet.drawing.drawn.wanted[position]] for position in reading.marks}
+        error = math.sqrt(float(np.sum(variances(sheet.domain, value))))
         key, drawn = (reading.kind, reading.of), [float(plain_value([part])[0]) for part in components(value)]
-        if true[key].has(drawn, error if math.isfinite(error) else 0.0):
+        if homes.isdisjoint(deviating) and true[key].has(drawn, error if math.isfinite(error) else 0.0):
             right.add(key)
     return frozenset(right)
+
+
+def _own_readings(matching: Matching) -> Iterator[tuple[Reading, list[Any], Any]]:
+    """Yield each reading of the student's own marks with these and its value, but for what they do not give, as a rate
+    over a length of nothing."""
+    drawing = matching.sheet.drawing
+    for reading in drawing.readings:
+        marks = [matching.own[drawing.drawn.wanted[position]] for position in reading.marks]
+        with suppress(ZeroDivisionError, ConstructionError):
+            yield reading, marks, drawing.value(reading, marks, matching.sheet.domain)
 
 
 def judge_numbers(matching: Matching, numbers: Sequence[StudentNumber], true: Mapping[Key, TrueResult]
@@ -109,7 +124,7 @@ def judge_numbers(matching: Matching, numbers: Sequence[StudentNumber], true: Ma
     numbers that are not asked for."""
     if not numbers:
         return (), ()
-    own_numbers = _expected_numbers(matching, matching.own)
+    own_numbers = _expected_numbers(matching)
     written: dict[Key | None, list[StudentNumber]] = {}
     for number in numbers:
         written.setdefault(_asked_key(number, own_numbers), []).append(number)
@@ -126,10 +141,12 @@ def _asked_key(number: StudentNumber, own: Mapping[Key, ExpectedNumber]) -> Key 
     return key if key in own else alike[0] if len(alike) == 1 else None
 
 
-def _expected_numbers(matching: Matching, values: Sequence[Any]) -> dict[Key, ExpectedNumber]:
-    """Every number that a drawing says."""
+def _expected_numbers(matching: Matching) -> dict[Key, ExpectedNumber]:
+    """Every number that a drawing says; what it does not say, as it truly is."""
     drawing, numbers = matching.sheet.drawing, dict[Key, ExpectedNumber]()
-    for reading, marks, value in readings(drawing, values, matching.sheet.domain):
+    own_readings = {(row[0].kind, row[0].of): row for row in _own_readings(matching)}
+    for true_reading in readings(drawing, drawing.values, matching.sheet.domain):
+        reading, marks, value = own_readings.get((true_reading[0].kind, true_reading[0].of), true_reading)
         components = value if isinstance(value, tuple) else (value,)
         error = _reading_error(matching, reading, [plain_value(mark) for mark in marks])
         numbers[reading.kind, reading.of] = ExpectedNumber(components, error)

@@ -79,7 +79,12 @@ def handout_ending(path: str, only: str | None) -> str:
 
 def refuse_same_output(*paths: str | None) -> None:
     """Refuse one name for two results, of which one would replace the other."""
-    named = [path if path == STANDARD else os.path.realpath(path) for path in paths if path]
+    named = list[str]()
+    for path in filter(None, paths):
+        try:
+            named.append(path if path == STANDARD else os.path.realpath(path))
+        except ValueError as error:  # a byte that no file name may have
+            raise _unwritable(path, error) from None
     if twice := next((name for name in named if named.count(name) > 1), ""):
         raise Refused(f"{twice}: output", "two results would be written to one file", "a name for each")
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import string
-from collections.abc import Callable, Iterable, Iterator, Mapping, MutableMapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, MutableMapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
@@ -29,6 +29,7 @@ from graphplan.mechanism.numbers import FLOAT_RECKONING
 from graphplan.mechanism.placements import needs, placed_by
 from graphplan.mechanism.scene import incomplete_scene
 from graphplan.mechanism.scene_text import path_parts
+from graphplan.mechanism.slips import names_in
 
 Place = Sequence[float]
 OMEGA = 10  # rad/s of a drive until it is changed
@@ -675,8 +676,18 @@ def rename(editor: SceneEditor, kind: str, old: str, new: str) -> str:
         raise Refused(f"{kind} {old}", "there is no such name", f"a {kind} of the scene")
     if kind == "link" and old == editor.frame:
         editor.tables["frame"] = new
+    if kind == "point":
+        _rename_in_bars(editor.tables.get("sheet", {}).get("auxiliary", {}), [*table], old, new)
     _rename_within(editor.tables, kind, old, new, ())
     return new
+
+
+def _rename_in_bars(auxiliary: MutableMapping[str, Any], points: Collection[str], old: str, new: str) -> None:
+    """Rename a point in the bars that give auxiliary points, such as "LA BT": names without blanks between them."""
+    for letter, bars in auxiliary.items():
+        if isinstance(bars, str):
+            ends = [names_in(bar, points) or [bar] for bar in bars.split()]
+            auxiliary[letter] = " ".join("".join(new if name == old else name for name in names) for names in ends)
 
 
 def _rename_within(table: MutableMapping[str, Any], kind: str, old: str, new: str, above: tuple[str, ...]) -> None:

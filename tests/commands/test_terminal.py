@@ -23,7 +23,7 @@ from face import names, ran
 import graphplan as gp
 
 ROOT = Path(__file__).parents[2]
-MAX_OPTIONS, MAX_LINES = 84, 80
+MAX_OPTIONS, MAX_LINES = 84, 92
 PATIENCE = 600.0  # seconds after which it hangs, on any machine
 THREADS = "MKL_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"
 KINDS = re.findall(r"\{([a-z,-]+)\}", ran("new", "--help").out)[0].split(",")

@@ -140,7 +140,7 @@ def test_one_name_of_a_place_moves_its_mark() -> None:
     assert by_one.velocity["B"][0] != by_one.velocity["B"][1]
 
 
-CONTROLLED = {"rosenauer-basic": {"3", "4"}, "rosenauer-example-1": {"3"}, "rosenauer-example-2": {"6", "7"},
+CONTROLLED = {"rosenauer-basic": {"3", "4"}, "rosenauer-example-1": {"3"}, "rosenauer-example-2": {"6"},
               "stephenson": {"3"}, "four-bar": {"2"}, "shaper": set(), "jaanimets-10": set()}
 
 

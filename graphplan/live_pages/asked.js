@@ -1,5 +1,6 @@
 // ---- the asked results in sight: a strip of them, their sizes at the vectors, and the graph of one of them over the travel
 
+const SHORT_SHARE = 0.05;  // of the longest vector of a kind: one shorter need not be told where it is not drawn
 const KINDS = [["points", "velocity", "v", "speed"], ["slides", "velocity", "v", "speed"], ["points", "acceleration", "a", "acceleration"],
   ["slides", "acceleration", "a", "acceleration"], ["links", "omega", "ω", "turning"], ["links", "alpha", "α", "bending"]];
 const GRAPH_EDGES = [52, 12, 20, 16];  // of the graph: left, right, above and below
@@ -9,6 +10,9 @@ const ROBUST = 0.9, OVER_ROBUST = 2.5;  // a graph reaches so many times as high
 
 // the size of a vector or a number, not a number where it is unknown
 const sizeOf = value => (Array.isArray(value) ? Math.hypot(...value) : value ?? NaN);
+
+// a vector by its letter; those of orthogonal velocities, whose ends have the letters, by that of the velocity
+const nameOf = ({letter, label}) => letter || label.replace("velocity ", "v_").replace("acceleration ", "a_");
 
 const leasts = new WeakMap();  // by results
 const rounded = (size, least) => (Math.abs(size) <= least ? 0 : size);
@@ -103,7 +107,17 @@ class Asked {
   lacking(results) {
     const {sheet} = this.page.picture, lost = ({ends}) => !ends.every(end => end.every(Number.isFinite));
     return [...this.all.filter(({size}) => !Number.isFinite(size(results))).map(({letter, name}) => `${letter}_${name}`),
-      ...sheet.data.vectors.filter(vector => vector.label && lost(vector) && this.size(vector.label, results) > 0).map(({letter}) => letter)];
+      ...sheet.data.vectors.filter(vector => vector.label && lost(vector) && this.size(vector.label, results) > 0).map(nameOf)];
+  }
+
+  // the letters of vectors too short to be drawn, though not negligible beside the longest of their kind
+  short(results) {
+    const kind = ({label}) => label.split(" ")[0], longest = {}, sizes = new Map();
+    for (const vector of this.page.picture.sheet.data.vectors.filter(({label}) => label)) {
+      sizes.set(vector, this.size(vector.label, results) || 0);
+      longest[kind(vector)] = Math.max(longest[kind(vector)] ?? 0, sizes.get(vector));
+    }
+    return [...sizes].filter(([vector, size]) => !vector.shown && size > SHORT_SHARE * longest[kind(vector)]).map(([vector]) => nameOf(vector));
   }
 
   // the size of what a vector shows, by its name

@@ -159,8 +159,9 @@ class Page extends SpokenPage {
     const known = motion.pose.why ? this.translated(motion.pose.why) : "";
     const lacking = results ? [...new Set(this.asked.lacking(results))].join(", ") : "";
     const off = results && Object.values(results.check ?? {}).some(one => one > 1e-5);
+    const short = results ? [...new Set(this.asked.short(results))].join(", ") : "";
     this.said = said || (known ? this.say("undrawn", known) : motion.pose.served ? "" : this.say("formless"))
-      || (!results ? this.say("singular") : lacking ? this.say("undrawn", lacking) : off ? this.say("differs") : "");
+      || (!results ? this.say("singular") : lacking ? this.say("undrawn", lacking) : off ? this.say("differs") : short ? this.say("short", short) : "");
     if (by("said").textContent !== this.said) by("said").textContent = this.said;
   }
 

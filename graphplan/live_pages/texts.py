@@ -60,6 +60,7 @@ PAGE_WORDS: dict[str, Said] = {
     "handle": said("Point {0}: drag it, or move it by the arrow keys", "%"),
     "undrawn": said("In this pose the construction cannot be drawn: {0}", "%"),
     "formless": said("In this pose the construction takes other forms than those that are drawn here."),
+    "short": said("Too short to draw here: {0}", "%"),
     "singular": said("In this pose there are no results."),
     "differs": said("Construction and second opinion differ in this pose."),
 }  # fmt: skip

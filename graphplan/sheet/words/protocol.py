@@ -40,8 +40,8 @@ TURNED = said("velocities are drawn from their points, turned by 90°: the ends 
               "parallel sides")
 TRIANGLES = said("each velocity is drawn from its point, its parts head to tail")
 IDEAS = {
-    N_PLAN: said("ba is the normal acceleration of A about B; the acceleration of each point begins at the point's own "
-                 "mark"),
+    N_PLAN: said("the vector ba is the normal acceleration of A about B; the acceleration of each point begins at the "
+                 "point's own mark"),
     VELOCITY_PLAN: said("all velocities are laid off from the pole; the ends of a link's points form its image, turned "
                         "by 90°"),
     ACCELERATION_PLAN: said("all accelerations are laid off from the pole, their parts head to tail"),

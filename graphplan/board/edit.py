@@ -608,9 +608,9 @@ def _forget(editor: SceneEditor, name: str) -> None:
     for table in ("find", "sheet"):
         keys = editor.tables.get(table, {})
         for key in [*keys] if isinstance(keys, MutableMapping) else ():
-            names = keys[key]
-            remaining = [one for one in names if name not in _words(one)] if isinstance(names, list) else names
-            if len(remaining) < len(names) and not remaining:
+            names = keys[key] if isinstance(keys[key], list) else []
+            remaining = [one for one in names if name not in _words(one)]
+            if names and not remaining:
                 _erase_key(editor, table, key)
             elif len(remaining) < len(names):
                 keys[key] = remaining

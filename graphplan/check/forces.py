@@ -20,6 +20,7 @@ from graphplan.methods.panels import JointForce
 from graphplan.methods.results import balances, pair_forces
 from graphplan.solver.friction import (
     Frictional,
+    Sense,
     contact_forces,
     delivered_power,
     efficiency,
@@ -85,16 +86,19 @@ def _sense(number: Any, by: Bounds) -> int:
 # ---- by the kinds and names of a construction's results -------------------------------------------------------------
 
 
-def force_truth(scene: Scene, results: Results, smooth: Reactions,
-                rough: Reactions | None = None) -> Readings:
-    """The solver's values of the forces in a construction, with friction among them, and of the power balance."""
+def force_truth(scene: Scene, results: Results, smooth: Reactions, rough: Reactions | None = None,
+                sense: Sense | None = None) -> Readings:
+    """The solver's values of the forces in a construction, with friction among them, and of the power balance.
+
+    `sense` gives the sense of a rate or a force, as `screw_moments` takes it.
+    """
     arms = {s.name: _arm(s, scene, smooth) for s in scene.slides if s.name in results.get(kinds.SLIDE_ARM, {})}
     truth = _reactions(smooth, smooth_forces(smooth))
     truth[kinds.SLIDE_ARM] = arms
     if rough is not None:
         truth |= {kinds.WITH_FRICTION[kind]: named for kind, named in _reactions(rough, contact_forces(rough)).items()}
     if required_loads(scene).screws:
-        truth[kinds.SCREW] = screw_moments(smooth if rough is None else rough)
+        truth[kinds.SCREW] = screw_moments(smooth if rough is None else rough, sense)
     named = required_loads(scene).named_balances
     for kind_of_way in kinds.BY_PLANS, kinds.BY_LEVER, kinds.RUBBED:
         last = smooth if kind_of_way != kinds.RUBBED else rough

@@ -122,7 +122,7 @@ def _block_gaps(batch: PoseBatch, drawing: Construction, ours: Readings) -> dict
     if scene.loads is not None:
         from graphplan.check.forces import force_truth
 
-        truth |= force_truth(scene, ours, poses.reactions(scene, motion, n, sizes=True))
+        truth |= force_truth(scene, ours, poses.reactions(scene, motion, n, sizes=True), sense=poses.sense)
     apart: dict[str, Any] = {kind: np.zeros(n) for kind in compared_groups(drawing)}
     least = {kind: PROVEN_ZERO * scale for kind, scale in drawn_sizes(drawing).items()}
     for kind, named in ours.items():

@@ -261,8 +261,7 @@ def rubbing(scene: Scene, rates: Rates, moves: Sense | None = None) -> Rubbing:
 
     A rate within rounding of the fastest motion counts as rest, unless `moves` decides otherwise.
     """
-    loads, reach, still = required_loads(scene), rates.equations.reach, standstill(rates)
-    moves = moves or (lambda rate, scale: sign(float(rate) * scale, still))
+    loads, reach, moves = required_loads(scene), rates.equations.reach, moves or beyond_rounding(rates)
     circles = {f.at: f.radius * f.coefficient for f in loads.frictions}
     coefficients = {frozenset(f.links): f.coefficient for f in loads.frictions}
     journals, guides = dict[tuple[str, str], Number](), dict[Slide | Contact, Number]()
@@ -346,11 +345,12 @@ def contact_slip(rates: Rates, contact: Contact) -> Number:
 # ---- what the balances deliver ---------------------------------------------------------------------------------------
 
 
-def standstill(rates: Rates) -> float:
-    """The speed below which a pair stands still: what rounding could make of what moves fastest."""
+def beyond_rounding(rates: Rates) -> Sense:
+    """Return the sense of a rate; 0 if rounding could make it of what moves fastest."""
     points = (abs(float(x)) for v in (rates.velocity, rates.slide_velocity) for pair in v.values() for x in pair)
     turns = (abs(float(turn)) * rates.equations.reach for turn in rates.omega.values())
-    return SLIP_TOL * rates.condition * max(*points, *turns, 0.0)
+    least = SLIP_TOL * rates.condition * max(*points, *turns, 0.0)
+    return lambda rate, scale: sign(float(rate) * float(scale), least)
 
 
 def moved_with(rates: Rates, link: str, place: str) -> Pair:
@@ -361,9 +361,9 @@ def moved_with(rates: Rates, link: str, place: str) -> Pair:
     return plus(rates.velocity[base], times(rates.omega[link], quarter_turn(arm)))
 
 
-def sign(value: float, least: float) -> int:
-    """Sign of a number: 1 or -1, or 0 if it is no larger than `least`."""
-    return (value > least) - (value < -least)
+def sign(value: Any, least: Any) -> Any:
+    """Sign of a number, or of each in an array: 1 or -1, or 0 if it is no larger than `least`."""
+    return 1 * (value > least) - 1 * (value < -least)
 
 
 def delivered_power(solution: Reactions, rubs: bool = False) -> Number:
@@ -387,24 +387,29 @@ def screw_share(solution: Reactions, balance: Balance, value: Pair) -> Number:
     return screw.circumferential(screw_sense(solution, balance, value)[1]) / screw.slope if screw else 1
 
 
-def screw_sense(solution: Reactions, balance: Balance, value: Pair) -> tuple[Slide, int]:
+def screw_sense(solution: Reactions, balance: Balance, value: Pair, sense: Sense | None = None) -> tuple[Slide, Any]:
     """The slide that a screw moves through which a balance acts; and 1 where that drives, -1 where its load does, and 0
     where it stands still."""
     scene, rates = solution.equations.scene, solution.rates
+    moves, acts = (sense, sense) if sense else (beyond_rounding(rates), lambda pull, _: sign(float(pull), 0))
     slide = next(slide for slide in scene.slides if {*slide.links} == {*balance.links})
-    slip, pull = (float(dot(v, slide.direction)) for v in (rates.slide_velocity[slide.name], value))
+    slip, pull = (dot(v, slide.direction) for v in (rates.slide_velocity[slide.name], value))
     still = 0 if slide.name in required_loads(scene).resting else 1
-    sense = still if balance.link == slide.link else -still
-    return slide, sense * sign(slip / math.hypot(*slide.direction), standstill(rates)) * sign(pull, 0)
+    scale = 1 / square_root(dot(slide.direction, slide.direction))
+    return slide, (still if balance.link == slide.link else -still) * moves(slip, scale) * acts(pull, 1)
 
 
-def screw_moments(solution: Reactions) -> dict[str, Number]:
-    """By slide, the moment on the screw that moves it, in force * m: positive where it drives along the direction."""
+def screw_moments(solution: Reactions, sense: Sense | None = None) -> dict[str, Number]:
+    """By slide, the moment on the screw that moves it, in force * m: positive where it drives along the direction.
+
+    `sense` gives the sense of a rate or a force; without it a rate within rounding of the fastest motion counts as
+    rest.
+    """
     loads, moments = required_loads(solution.equations.scene), dict[str, Number]()
     for balance, value in zip(loads.balances, solution.balances, strict=True):
         if (screw := loads.screw_of(balance)) and isinstance(value, tuple):
-            slide, sense = screw_sense(solution, balance, value)
-            arm = screw.radius / metre(solution.equations.scene.units) * screw.circumferential(sense)
+            slide, drives = screw_sense(solution, balance, value, sense)
+            arm = screw.radius / metre(solution.equations.scene.units) * screw.circumferential(drives)
             arm /= square_root(dot(slide.direction, slide.direction))
             moments[slide.name] = (arm if balance.link == slide.link else -arm) * dot(value, slide.direction)
     return moments

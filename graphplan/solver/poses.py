@@ -19,10 +19,11 @@ from graphplan.mechanism.numbers import map_numbers
 from graphplan.mechanism.order import with_values
 from graphplan.mechanism.pairs.pair import Along
 from graphplan.solver import rates, statics
+from graphplan.solver.friction import sign
 from graphplan.solver.linear import Block, Row, blocks, by_blocks
 from graphplan.solver.rates import Equations, force_equations, motion_equations
 from graphplan.solver.statics import pushes
-from graphplan.solver.tolerances import POSE_SINGULAR_TOL
+from graphplan.solver.tolerances import POSE_SINGULAR_TOL, SLIP_TOL
 
 MAX_BLOCK = 24  # unknowns that one dense block has at most: over many poses small blocks cost no more than their sum
 
@@ -69,6 +70,11 @@ class Sized:
             return Sized(value, np.maximum(self.size, np.abs(value) * two.size) / least)
 
     __radd__, __rmul__ = __add__, __mul__
+
+
+def sense(number: Sized, scale: Any) -> Any:
+    """The sense of a rate or a force in each pose, 1 or -1, at any `scale`; 0 if it may be rounding of what cancels."""
+    return sign(number.value, SLIP_TOL * number.size)
 
 
 def with_size(number: Any) -> Sized:

@@ -26,12 +26,14 @@ from graphplan.methods.tolerances import CONTROL_TOL
 
 class Fact(NamedTuple):
     """A result in the scene's units: of which kind, of what, and its value, a number or a vector (x, y); over poses an
-    array, of vectors a complex one. `compared` are its numbers beside the solver's, where these are known."""
+    array, of vectors a complex one. `compared` are its numbers beside the solver's, where these are known; `prefix`
+    tells its columns from those of the same dimension that are of the same thing."""
 
     kind: ResultKind
     of: str
     value: Any
     compared: tuple[Any, ...] = ()
+    prefix: str = ""
 
     @property
     def name(self) -> str:
@@ -50,7 +52,7 @@ class Fact(NamedTuple):
     @property
     def columns(self) -> dict[str, Any]:
         """Numbers of the result under headings of tables, such as A.vx, A.vy and 3.omega."""
-        heading = f"{self.kind.way} {self.of}.{self.kind.dimension.letter}".strip()
+        heading = f"{self.prefix} {self.of}.{self.kind.dimension.letter}".strip()
         return {heading + axis: number for axis, number in self.axes.items()}
 
     @property
@@ -63,8 +65,15 @@ class Fact(NamedTuple):
 def facts(results: Mapping[str, Mapping[str, Any]],
           compared: Mapping[str, Mapping[str, tuple[Any, ...]]] | None = None) -> list[Fact]:
     """Results by kind and name as a list."""
-    return [Fact(kind_of(kind), of, value, (compared or {}).get(kind, {}).get(of, ()))
+    return [Fact(kind_of(kind), of, value, (compared or {}).get(kind, {}).get(of, ()), _prefix(kind, of, results))
             for kind, named in results.items() for of, value in named.items()]
+
+
+def _prefix(kind: str, of: str, results: Mapping[str, Mapping[str, Any]]) -> str:
+    """How a balance is found; else the words for a result that stands there in another way as well."""
+    if kind == kinds.SCREW:
+        return "screw"
+    return "without friction" if of in results.get(kinds.WITH_FRICTION.get(kind, ""), {}) else kind_of(kind).way
 
 
 def axes(value: Any) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import math
 import re
 from pathlib import Path
 from typing import Any
@@ -113,6 +114,15 @@ def test_names_are_the_same_in_every_face(tmp_path: Path) -> None:
         assert columns["efficiency"] == pytest.approx(data["efficiency"])
         assert arrays["efficiency"] == pytest.approx(data["efficiency"])
     assert [float(row["efficiency"]) for row in rows] == data["efficiency"]
+
+
+def test_no_two_columns_have_one_heading() -> None:
+    """With friction, reactions without it stand under other headings; a size is that of the components beside it."""
+    rows = [*csv.reader(io.StringIO(ran("cycle", "kinytskyi", "--positions", "4", "-q").out))]
+    assert len({*rows[0]}) == len(rows[0])
+    x, y, size = (float(rows[1][rows[0].index(f"2 at A.{part} [N]")]) for part in ("Fx", "Fy", "size"))
+    assert size == pytest.approx(math.hypot(x, y))
+    assert x != float(rows[1][rows[0].index("without friction 2 at A.Fx [N]")])
 
 
 def test_a_family_has_a_curve_for_each_value(tmp_path: Path) -> None:

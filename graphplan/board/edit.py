@@ -20,7 +20,7 @@ from typing import Any, cast
 import tomlkit
 from tomlkit.container import Container
 from tomlkit.exceptions import TOMLKitError
-from tomlkit.items import AoT, Table
+from tomlkit.items import AoT, Comment, Item, Key, Table
 
 from graphplan.errors import Refused
 from graphplan.mechanism.fields import Misfit
@@ -90,18 +90,33 @@ class SceneEditor:
         elif not isinstance(rows, list):
             raise Refused(key, "it is no list of tables", f"[[{key}]]")
         elif isinstance(rows, AoT) and rows:
-            rows[-1].add(tomlkit.nl())
+            next_comment = take_comment(rows[-1])
+            (row if rows[-1].as_string().endswith("\n\n") else rows[-1]).add(tomlkit.nl())
+            row.value.body.extend(next_comment)
         self.tables[key].append(row)
 
     def remove_row(self, key: str, place: int) -> None:
         """Remove a table of a list, and the list with its last one."""
         rows = self.tables.get(key)
         if not isinstance(rows, list):
-            self.tables.pop(key, None)
+            self.remove_key(self.tables, key)
         elif 0 <= place < len(rows):
-            del rows[place]
+            self.remove_key(rows, place)
             if not rows:
                 del self.tables[key]
+
+    def remove_key(self, holder: Any, key: str | int) -> None:
+        """Remove a key, or a table with the comment right above it; the comment above the next one stays."""
+        headers, removed = [*tables_with_headers(self.tables)], holder[key]
+        place = next((place for place, table in enumerate(headers) if table is removed), None)
+        if place is not None:
+            next_comment = take_comment(removed)
+            if place:
+                take_comment(headers[place - 1])
+                headers[place - 1].value.body.extend(next_comment)
+            elif headers[1:]:
+                headers[1].trivia.indent = "".join(item.as_string() for _, item in next_comment)
+        del holder[key]
 
     def remove_rows(self, key: str, is_meant: Callable[[Any], bool]) -> None:
         """Remove the tables of a list for which it is so."""
@@ -132,7 +147,7 @@ class SceneEditor:
         elif isinstance(links.get(name), list):
             links[name] = text.split()
         else:
-            links[name] = text
+            write_key(links, name, text)
 
     def require_point(self, name: str) -> None:
         """Fails with `Refused` where there is no such point."""
@@ -148,6 +163,35 @@ class SceneEditor:
     def floats(self) -> dict[str, complex]:
         """Where the points are before the edit."""
         return {name: complex(float(x), float(y)) for name, (x, y) in self.scene.points.items()}
+
+
+def tables_with_headers(container: Container) -> Iterator[Table]:
+    """The tables with a header of their own, in the order of the text."""
+    for key, item in container.body:
+        if isinstance(item, AoT):
+            for row in item.body:
+                yield row
+                yield from tables_with_headers(row.value)
+        elif isinstance(item, Table) and key is not None and not key.is_dotted():
+            if not item.is_super_table():
+                yield item
+            yield from tables_with_headers(item.value)
+
+
+def take_comment(table: Any) -> list[tuple[Key | None, Item]]:
+    """Take off the comment at the end of a table, which is about the next one, whose header it stands above."""
+    body, comment = table.value.body if isinstance(table, Table) else [], list[tuple[Key | None, Item]]()
+    while body and isinstance(body[-1][1], Comment):
+        comment.insert(0, body.pop())
+    return comment
+
+
+def write_key(table: Any, key: str, value: Any) -> None:
+    """Write a value; a new key stands above the comment that is about the next table."""
+    next_comment = take_comment(table)
+    table[key] = value
+    if next_comment:
+        table.value.body.extend(next_comment)
 
 
 def points_in(value: Any) -> list[str]:
@@ -177,7 +221,7 @@ def add_point(editor: SceneEditor, at: Place) -> str:
     """Add a point under the next letter, and return its name."""
     points = editor.table("points")
     name = next(name for name in point_names() if name not in points)
-    points[name] = pair(at)
+    write_key(points, name, pair(at))
     return name
 
 
@@ -289,13 +333,13 @@ def ask(editor: SceneEditor, point: str, asked: bool = True) -> str:
         if names == "all":
             continue
         if asked and point not in names:
-            find[key] = [*map(str, names), point]
+            write_key(find, key, [*map(str, names), point])
         elif not asked and point in names:
             find[key] = [str(name) for name in names if name != point]
             if not find[key]:
                 del find[key]
     if not find:
-        del editor.tables["find"]
+        editor.remove_key(editor.tables, "find")
     return point
 
 
@@ -333,7 +377,7 @@ def set_mass(editor: SceneEditor, link: str, mass: float) -> str:
         editor.write_link(link, [*editor.links()[link], centre])
     entry = tomlkit.inline_table()
     entry.update({"mass": number(mass), "centre": centre})
-    masses[link] = entry
+    write_key(masses, link, entry)
     _balance_loads(editor)
     return link
 
@@ -347,7 +391,7 @@ def _balance_loads(editor: SceneEditor) -> None:
 def _drop_balance(editor: SceneEditor) -> None:
     """Erase the balance where no load is left."""
     if not {"forces", "moments", "masses", "springs", "gravity"} & {*editor.tables}:
-        editor.tables.pop("balance", None)
+        editor.remove_rows("balance", lambda row: True)
 
 
 # ---- what is moved ---------------------------------------------------------------------------------------------------
@@ -545,7 +589,8 @@ def set_value(editor: SceneEditor, path: Sequence[str | int], value: Any) -> str
     if value is None:
         holder.pop(key, None)
     else:
-        holder[key] = number(value) if isinstance(value, float) else value
+        value = number(value) if isinstance(value, float) else value
+        write_key(holder, key, value)
     return str(key)
 
 
@@ -641,9 +686,9 @@ def _erase_key(editor: SceneEditor, table: str, key: str) -> None:
     """Erase a key of a table, and the table with its last one."""
     keys = editor.tables.get(table)
     if isinstance(keys, MutableMapping) and key in keys:
-        del keys[key]
+        editor.remove_key(keys, key)
         if not keys and table not in ("points", "links"):
-            del editor.tables[table]
+            editor.remove_key(editor.tables, table)
 
 
 def _leads(value: Any, path: Sequence[str]) -> bool:

@@ -90,6 +90,18 @@ def test_comments_order_and_layout_stay() -> None:
         assert after(COMMENTED, operation) == COMMENTED.replace(old, new)
 
 
+def test_a_comment_stays_above_its_own_table() -> None:
+    """What is added stands above the comment of the next table; what is erased takes its own comment along, not that.
+    """
+    text = COMMENTED.replace("[[slides]]", "# the pair\n[[slides]]").replace("[[drive]]", "# the motor\n[[drive]]")
+    added = after(text, {"do": "link", "points": ["A", "C"]}, {"do": "slide", "point": "B", "direction": [0, 1]})
+    assert "\n\n# the pair\n[[slides]]\nlink = \"3\"" in added
+    assert "\n\n# the motor\n[[drive]]" in added
+    erased = after(text, {"do": "erase", "kind": "slide", "name": 0})
+    assert "# the pair" not in erased
+    assert "\n\n# the motor\n[[drive]]" in erased
+
+
 @pytest.mark.parametrize("name", packaged_names())
 def test_what_is_added_goes_again(name: str) -> None:
     """In every packaged scene a point that is added and erased, and one that is moved there and back, leave the text;

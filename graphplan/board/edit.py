@@ -23,12 +23,12 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT, Comment, Item, Key, Table
 
 from graphplan.errors import Refused
-from graphplan.mechanism.fields import Misfit
+from graphplan.mechanism.fields import Misfit, quote_key
 from graphplan.mechanism.model import FRAME, Placement, Scene
 from graphplan.mechanism.numbers import FLOAT_RECKONING
 from graphplan.mechanism.placements import needs, placed_by
 from graphplan.mechanism.scene import incomplete_scene
-from graphplan.mechanism.scene_text import path_parts
+from graphplan.mechanism.scene_text import path_parts, value_at
 from graphplan.mechanism.slips import names_in
 
 Place = Sequence[float]
@@ -104,6 +104,21 @@ class SceneEditor:
             self.remove_key(rows, place)
             if not rows:
                 del self.tables[key]
+            self._count_varied_rows_anew(key, place)
+
+    def _count_varied_rows_anew(self, key: str, removed: int) -> None:
+        """Let the paths of [vary] lead to the same tables of a list after one of them is removed."""
+        places = dict[str, int]()
+        for path in self.tables.get("vary", {}):
+            list_key, *more = path_parts(path)
+            if list_key == key and more and more[0].isdecimal():
+                places[path] = int(more[0])
+        for path in sorted(places, key=places.__getitem__):
+            if places[path] == removed:
+                _erase_key(self, "vary", path)
+            elif places[path] > removed:
+                new_path = ".".join(map(quote_key, [key, f"{places[path] - 1}", *path_parts(path)[2:]]))
+                _rename_key(self.tables["vary"], path, new_path, ("vary",))
 
     def remove_key(self, holder: Any, key: str | int) -> None:
         """Remove a key, or a table with the comment right above it; the comment above the next one stays."""
@@ -322,21 +337,22 @@ def add_drive(editor: SceneEditor, link: str) -> str:
     return link
 
 
-def ask(editor: SceneEditor, point: str, asked: bool = True) -> str:
+def ask(editor: SceneEditor, point: str, wanted: bool = True) -> str:
     """Ask for the velocity and the acceleration of a point, or not any more."""
     editor.require_point(point)
     find = editor.table("find")
     for key in ("velocity", "acceleration"):
         names = find.get(key, [])
-        if isinstance(names, str):
-            names = [] if not asked and names == point else [names] if names != "all" else names
         if names == "all":
             continue
-        if asked and point not in names:
-            write_key(find, key, [*map(str, names), point])
-        elif not asked and point in names:
-            find[key] = [str(name) for name in names if name != point]
-            if not find[key]:
+        if isinstance(names, str):
+            names = [names]
+        if wanted and point not in names:
+            write_key(find, key, names)
+            find[key].append(point)
+        elif not wanted and point in names:
+            names.remove(point)
+            if not names:
                 del find[key]
     if not find:
         editor.remove_key(editor.tables, "find")
@@ -607,7 +623,7 @@ def erase(editor: SceneEditor, kind: str, name: str | int) -> str:
     elif kind == "link":
         _erase_link(editor, str(name))
     elif kind == "ask":
-        ask(editor, str(name), asked=False)
+        ask(editor, str(name), wanted=False)
     elif kind in lists:
         editor.remove_row(lists[kind], int(name))
     _forget_slides(editor, slides - _slides(editor))
@@ -647,18 +663,16 @@ def _forget(editor: SceneEditor, name: str) -> None:
     for key in [*editor.tables.get("tolerances", {})]:
         if name in key.split():
             _erase_key(editor, "tolerances", key)
-    for path in [*editor.tables.get("vary", {})]:
-        if not _leads(editor.tables, path_parts(path)):
-            _erase_key(editor, "vary", path)
     for table in ("find", "sheet"):
         keys = editor.tables.get(table, {})
         for key in [*keys] if isinstance(keys, MutableMapping) else ():
-            names = keys[key] if isinstance(keys[key], list) else []
-            remaining = [one for one in names if name not in _words(one)]
-            if names and not remaining:
+            entries = keys[key] if isinstance(keys[key], list) else []
+            places = [place for place, entry in enumerate(entries) if name in _words(entry)]
+            if places and len(places) == len(entries):
                 _erase_key(editor, table, key)
-            elif len(remaining) < len(names):
-                keys[key] = remaining
+                continue
+            for place in reversed(places):
+                del entries[place]
 
 
 def _slides(editor: SceneEditor) -> set[tuple[str, str]]:
@@ -679,7 +693,7 @@ def _forget_slides(editor: SceneEditor, gone: set[tuple[str, str]]) -> None:
 
 def _names_slide(row: Any, name: str, links: list[str]) -> bool:
     """Whether a table of a list names a slide."""
-    return name in " ".join(_words(row)) or row.get("slide") == links
+    return f" {name} " in f" {' '.join(_words(row))} " or row.get("slide") == links
 
 
 def _erase_key(editor: SceneEditor, table: str, key: str) -> None:
@@ -689,16 +703,6 @@ def _erase_key(editor: SceneEditor, table: str, key: str) -> None:
         editor.remove_key(keys, key)
         if not keys and table not in ("points", "links"):
             editor.remove_key(editor.tables, table)
-
-
-def _leads(value: Any, path: Sequence[str]) -> bool:
-    """Whether a path of keys and places leads to something."""
-    for key in path:
-        if isinstance(value, list):
-            value = value[int(key)] if key.isdecimal() and int(key) < len(value) else None
-        else:
-            value = value.get(key) if isinstance(value, Mapping) else None
-    return value is not None
 
 
 def _words(value: Any) -> list[str]:
@@ -771,7 +775,7 @@ def _new_key(key: str, kind: str, old: str, new: str, above: tuple[str, ...]) ->
         return _with_word(key, old, new)
     if above[:1] == ("vary",):
         first, *more = path_parts(key)
-        return ".".join([first, new, *more[1:]]) if first == table and more[:1] == [old] else key
+        return ".".join(map(quote_key, [first, new, *more[1:]])) if first == table and more[:1] == [old] else key
     named = above[:1] in (("points",), ("motion",)) if kind == "point" else above in (("links",), ("masses",))
     return new if named and key == old else key
 
@@ -784,6 +788,7 @@ def _rename_key(table: MutableMapping[str, Any], old: str, new: str, above: tupl
     container = getattr(table, "value", None)
     if isinstance(container, Container):
         container._replace(old, new, value)
+        dict.__setitem__(container, new, getattr(value, "value", value))  # tomlkit leaves this out
     else:
         del table[old]
         table[new] = value
@@ -803,6 +808,14 @@ def apply_operations(text: str, name: str, operations: Sequence[Mapping[str, Any
     names = []
     for values in operations:
         editor = SceneEditor(text, name)
+        varied = _varied_paths(editor)
         names.append(OPERATIONS[values["do"]](editor, **{key: value for key, value in values.items() if key != "do"}))
+        for path in varied - _varied_paths(editor):
+            _erase_key(editor, "vary", path)
         text = editor.edited_text()
     return text, names
+
+
+def _varied_paths(editor: SceneEditor) -> set[str]:
+    """The paths of [vary] that lead to a value."""
+    return {path for path in editor.tables.get("vary", {}) if value_at(editor.tables, path_parts(path)) is not None}

@@ -89,7 +89,7 @@ export class Inspector {
       this.#field("x", "x", () => shown(at()[0]), move(0), unit),
       this.#field("y", "y", () => shown(at()[1]), move(1), unit),
       this.#check(words.pivot, point.fixed, (fixed) => store.edit([{ do: "fix", point: name, fixed }])),
-      this.#check(words.asked, point.asked, (asked) => store.edit([{ do: "ask", point: name, asked }]))];
+      this.#check(words.asked, point.asked, (wanted) => store.edit([{ do: "ask", point: name, wanted }]))];
     if (point.how !== "given") rows.push(this.#freeing(name, Object.keys(point.locked)));
     return rows;
   }

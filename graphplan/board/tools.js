@@ -204,7 +204,7 @@ export class Tools extends EventTarget {
       case "pivot": return this.#clickPivot(point, to);
       case "slide": return this.#clickSlide(point, place, to, pointer);
       case "drive": return this.#clickDrive(point, place, pointer);
-      case "ask": return point === null ? undefined : store.edit([{ do: "ask", point, asked: true }]);
+      case "ask": return point === null ? undefined : store.edit([{ do: "ask", point, wanted: true }]);
       case "erase": return selected ? this.erase(selected) : undefined;
       default: return undefined;
     }

@@ -257,14 +257,14 @@ def numbers(tables: object, above: tuple[str, ...] = ()) -> Iterator[tuple[tuple
 
 def is_number_at(tables: object, path: str) -> bool:
     """Whether a number stands at a path."""
-    return _is_number(_value_at(tables, path_parts(path)))
+    return _is_number(value_at(tables, path_parts(path)))
 
 
 def _is_number(value: object) -> bool:
     return isinstance(value, Fraction) or type(value) is int
 
 
-def _value_at(tables: object, path: tuple[str, ...]) -> object:
+def value_at(tables: object, path: Sequence[str]) -> object:
     """The value at a path; None if the path does not exist."""
     for key in path:
         if isinstance(tables, list):
@@ -277,7 +277,7 @@ def _value_at(tables: object, path: tuple[str, ...]) -> object:
 def _vary_path(name: str, item: SceneItem, names: SceneNames) -> None:
     """A fault where there is no such number, or it must be the same for all."""
     path = path_parts(name)
-    value = _value_at(names.tables, path)
+    value = value_at(names.tables, path)
     if _is_number(value) and path[0] not in SAME_FOR_ALL:
         return
     varying = [".".join(map(quote_key, keys)) for keys, _ in numbers(names.tables) if keys[0] not in SAME_FOR_ALL]

@@ -91,8 +91,7 @@ def test_comments_order_and_layout_stay() -> None:
 
 
 def test_a_comment_stays_above_its_own_table() -> None:
-    """What is added stands above the comment of the next table; what is erased takes its own comment along, not that.
-    """
+    """Added keys and tables stand above the comment of the next table; an erased table takes its own comment along."""
     text = COMMENTED.replace("[[slides]]", "# the pair\n[[slides]]").replace("[[drive]]", "# the motor\n[[drive]]")
     added = after(text, {"do": "link", "points": ["A", "C"]}, {"do": "slide", "point": "B", "direction": [0, 1]})
     assert "\n\n# the pair\n[[slides]]\nlink = \"3\"" in added
@@ -208,6 +207,34 @@ def test_what_is_erased_takes_along_what_needs_it(name: str) -> None:
                 {"do": "erase", "kind": kind, "name": erased}])
             assert [fault["text"] for fault in answer["faults"] if "there is no" in fault["text"]] == []
             assert erased not in answer["objects"][f"{kind}s"]
+
+
+def test_varied_numbers_follow_their_tables() -> None:
+    """Paths of [vary] follow a list that is shortened; those of numbers that are gone go."""
+    vary = '[vary]\n"drive.1.omega" = [1, 2]\n"drive.0.omega" = [3]\n"points.B.0" = [4]\n'
+    text = COMMENTED + '\n[[drive]]\nlink = "2"\nomega = 7\n' + vary
+    erased = tables(after(text, {"do": "erase", "kind": "drive", "name": 0}))
+    assert erased["vary"] == {"drive.0.omega": [1, 2], "points.B.0": [4]}
+    assert erased["drive"] == [{"link": "2", "omega": 7}]
+    locked = after(text, {"do": "length", "ends": ["A", "B"], "length": 50})
+    assert [*tables(locked)["vary"]] == ["drive.1.omega", "drive.0.omega"]
+
+
+def test_a_slide_is_erased_by_its_whole_name() -> None:
+    """A load over "13 along frame" stays when the slide "3 along frame" is erased; one over the latter goes."""
+    load = '\n[[forces]]\non = "2"\nat = "B"\ndirection = [1, 0]\nover = "{} along frame"\nvalues = [[0, 1], [9, 1]]\n'
+    text = after(COMMENTED + load.format("13") + load.format("3"), {"do": "erase", "kind": "slide", "name": 0})
+    assert [force["over"] for force in tables(text)["forces"]] == ["13 along frame"]
+
+
+def test_comments_within_a_question_stay() -> None:
+    """A point that is asked for, or not any more, is a word more or less in the list; one in a text too."""
+    find = '\n[find]\nvelocity = [  # all\n  "B",  # the pin\n]\nacceleration = "B"\n'
+    asked = after(COMMENTED + find, {"do": "ask", "point": "C"})
+    assert "# all" in asked
+    assert "# the pin" in asked
+    assert tables(asked)["find"] == {"velocity": ["B", "C"], "acceleration": ["B", "C"]}
+    assert "find" not in tables(after(COMMENTED + find, {"do": "ask", "point": "B", "wanted": False}))
 
 
 @pytest.mark.parametrize("name", packaged_names())

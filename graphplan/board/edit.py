@@ -10,11 +10,13 @@ from __future__ import annotations
 
 import math
 import string
+from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, MutableMapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
 from itertools import combinations
+from operator import eq
 from typing import Any, cast
 
 import tomlkit
@@ -33,7 +35,8 @@ from graphplan.mechanism.slips import names_in
 
 Place = Sequence[float]
 OMEGA = 10  # rad/s of a drive until it is changed
-ANGLE_DECIMALS, LENGTH_DECIMALS = 4, 6  # of numbers that a drag writes
+ANGLE_DECIMALS, LENGTH_DECIMALS = 4, 6  # of numbers that a drag writes: finer than a pixel
+STANDING_DECIMALS = 10  # of numbers that are to leave a point where it is, such as in line with two others
 MAX_ROUNDS = 25  # of the search for the pose in which a dragged point is near the mouse
 STEP = 1.0  # degrees: the largest turn in a round is a good ten of them
 ROWS = "slides", "drive", "forces", "moments", "balance", "gears", "contacts", "springs", "friction"  # lists of tables
@@ -215,18 +218,18 @@ def points_in(value: Any) -> list[str]:
         value, list) else []
 
 
-def number(value: float, decimals: int = LENGTH_DECIMALS) -> int | float:
-    """A number as it is written: whole where it is."""
-    rounded = round(float(value), decimals)
+def number(value: float, decimals: int | None = None) -> int | float:
+    """A number as it is written: whole where it is; as it was typed where no count of decimals is named."""
+    rounded = float(value) if decimals is None or not math.isfinite(value) else round(float(value), decimals)
     if not math.isfinite(rounded):
         raise Refused(f"{value}", "not a number", "a number such as 12.5")
     return int(rounded) if rounded == int(rounded) else rounded
 
 
-def pair(place: Place) -> Any:
+def pair(place: Place, decimals: int | None = None) -> Any:
     """Two numbers as a list in one line."""
     x, y = place
-    return tomlkit.item([number(x), number(y)])
+    return tomlkit.item([number(x, decimals), number(y, decimals)])
 
 
 # ---- what is drawn ---------------------------------------------------------------------------------------------------
@@ -427,7 +430,8 @@ def move_point(editor: SceneEditor, point: str, to: Place) -> str:
     elif placement.how == "on-line":
         first, second = (places[name] for name in needs(placement)[:2])
         if first != second:
-            entry["distance"] = number(((goal - first) / (second - first)).real * abs(second - first))
+            along = ((goal - first) / (second - first)).real * abs(second - first)
+            entry["distance"] = number(along, LENGTH_DECIMALS)
     else:
         for name, value in pose_towards(scene.placements, point, goal).items():
             editor.table("points")[name]["angle"] = number(value, ANGLE_DECIMALS)
@@ -556,8 +560,8 @@ def _lock(editor: SceneEditor, point: str, other: str, length: float) -> None:
         distances.update({first: number(float(kept)), other: number(length)})
         entry.update({"distances": distances, "side": "left" if turned >= 0 else "right"})
     else:
-        angle = math.degrees(_phase(at[point] - at[other]))
-        entry.update({"from": other, "distance": number(length), "angle": number(angle, ANGLE_DECIMALS)})
+        angle = number(math.degrees(_phase(at[point] - at[other])), STANDING_DECIMALS)
+        entry.update({"from": other, "distance": number(length), "angle": angle})
     editor.table("points")[point] = entry
 
 
@@ -567,11 +571,10 @@ def set_angle(editor: SceneEditor, ends: Sequence[str], angle: float) -> str:
     placement, at = editor.scene.placements[second], editor.floats
     entry = editor.table("points")[second]
     if placement.how == "polar" and placement.data["from"] == first:
-        entry["angle"] = number(angle, ANGLE_DECIMALS)
+        entry["angle"] = number(angle)
     elif placement.how == "given":
-        turned = tomlkit.inline_table()
-        turned.update({"from": first, "distance": number(abs(at[second] - at[first])),
-                       "angle": number(angle, ANGLE_DECIMALS)})
+        turned, distance = tomlkit.inline_table(), number(abs(at[second] - at[first]), STANDING_DECIMALS)
+        turned.update({"from": first, "distance": distance, "angle": number(angle)})
         editor.table("points")[second] = turned
     else:
         raise Refused(f"angle {first} {second}", f"{second} is placed by other lengths", "free these lengths")
@@ -583,7 +586,7 @@ def free_point(editor: SceneEditor, point: str) -> str:
     editor.require_point(point)
     if point in editor.floats:
         place = editor.floats[point]
-        editor.table("points")[point] = pair((place.real, place.imag))
+        editor.table("points")[point] = pair((place.real, place.imag), STANDING_DECIMALS)
     return point
 
 
@@ -627,6 +630,7 @@ def erase(editor: SceneEditor, kind: str, name: str | int) -> str:
     elif kind in lists:
         editor.remove_row(lists[kind], int(name))
     _forget_slides(editor, slides - _slides(editor))
+    _forget_joints(editor)
     _drop_balance(editor)
     return ""
 
@@ -664,15 +668,8 @@ def _forget(editor: SceneEditor, name: str) -> None:
         if name in key.split():
             _erase_key(editor, "tolerances", key)
     for table in ("find", "sheet"):
-        keys = editor.tables.get(table, {})
-        for key in [*keys] if isinstance(keys, MutableMapping) else ():
-            entries = keys[key] if isinstance(keys[key], list) else []
-            places = [place for place, entry in enumerate(entries) if name in _words(entry)]
-            if places and len(places) == len(entries):
-                _erase_key(editor, table, key)
-                continue
-            for place in reversed(places):
-                del entries[place]
+        for key in [*editor.tables.get(table, {})]:
+            _remove_entries(editor, table, key, lambda entry: name in _words(entry))
 
 
 def _slides(editor: SceneEditor) -> set[tuple[str, str]]:
@@ -686,9 +683,25 @@ def _forget_slides(editor: SceneEditor, gone: set[tuple[str, str]]) -> None:
         name, links = f"{link} along {along}", [link, along]
         for table in ROWS:
             editor.remove_rows(table, partial(_names_slide, name=name, links=links))
-        slides = editor.tables.get("find", {}).get("slides")
-        if isinstance(slides, list) and name in slides:
-            slides.remove(name)
+        _remove_entries(editor, "find", "slides", partial(eq, name))
+
+
+def _forget_joints(editor: SceneEditor) -> None:
+    """Ask no more for the reactions in points that join no two links."""
+    links_at = Counter(point for points in editor.links().values() for point in points)
+    _remove_entries(editor, "find", "reactions",
+                    lambda name: name in editor.tables.get("points", {}) and links_at[name] < 2)
+
+
+def _remove_entries(editor: SceneEditor, table: str, key: str, is_meant: Callable[[Any], bool]) -> None:
+    """Remove those entries of a list under a key for which it is so, and the key with its last one."""
+    entries = value_at(editor.tables, (table, key))
+    places = [place for place, entry in enumerate(entries) if is_meant(entry)] if isinstance(entries, list) else []
+    if places and len(places) == len(entries):
+        _erase_key(editor, table, key)
+    else:
+        for place in reversed(places):
+            del entries[place]
 
 
 def _names_slide(row: Any, name: str, links: list[str]) -> bool:

@@ -191,7 +191,19 @@ def test_a_third_length_is_refused_until_one_is_freed() -> None:
         after(braced, {"do": "length", "ends": ["D", "C"], "length": 150},
               {"do": "length", "ends": ["D", "B"], "length": 150}, {"do": "length", "ends": ["D", "A"], "length": 150})
     free = after(braced, {"do": "free", "point": "B"})
-    assert tables(free)["points"]["B"] == pytest.approx([17.88854, 98.386992], abs=1)
+    at, braced_at = (edit_scene(text=text, name="scene", operations=[])["objects"]["points"] for text in (free, braced))
+    assert at["B"]["at"] == pytest.approx(braced_at["B"]["at"])
+
+
+@pytest.mark.small
+@pytest.mark.parametrize(("name", "operation"), [
+    ("gear-linkage", {"do": "free", "point": "B"}), ("biplanetary", {"do": "length", "ends": ["O", "A"], "length": 50}),
+    ("roller-cam", {"do": "length", "ends": ["O", "C"], "length": 34})])
+def test_a_point_that_is_placed_anew_stays(name: str, operation: dict[str, Any]) -> None:
+    """A point that is freed, or gets the length that it has, stays where it is: wheels and profiles still touch."""
+    text = after(gp.load(name).text, operation)
+    assert text != gp.load(name).text
+    assert places(text) == pytest.approx(places(gp.load(name).text))
 
 
 # ---- erased and renamed ----------------------------------------------------------------------------------------------
@@ -235,6 +247,12 @@ def test_comments_within_a_question_stay() -> None:
     assert "# the pin" in asked
     assert tables(asked)["find"] == {"velocity": ["B", "C"], "acceleration": ["B", "C"]}
     assert "find" not in tables(after(COMMENTED + find, {"do": "ask", "point": "B", "wanted": False}))
+
+
+def test_a_joint_that_is_none_any_more_has_no_reaction() -> None:
+    """With one of its two links a joint goes from the reactions that are asked for."""
+    text = COMMENTED + '\n[find]\nreactions = ["A", "B"]\n'
+    assert tables(after(text, {"do": "erase", "kind": "link", "name": "2"}))["find"] == {"reactions": ["A"]}
 
 
 @pytest.mark.parametrize("name", packaged_names())

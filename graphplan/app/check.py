@@ -13,7 +13,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from graphplan.app.choices import add_choices, add_travel, error, load_scene, make_report
+from graphplan.app.choices import add_choices, add_travel, error, load_scene
+from graphplan.app.drafting import make_report
 from graphplan.app.files import as_json, write
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.methods.panels import redundancies
 
     scene = load_scene(options)
-    report = report_regular_part(scene, lambda scene: make_report(options, scene, exact=options.exact, refuse=False))
+    report = report_regular_part(scene, lambda scene: make_report(scene, exact=options.exact, refuse=False))
     groups = structure(scene).lines()
     notes = [str(note) for note in (*redundancies(scene), *shortcuts(report.drawing), *replacements(scene))]
     notes += [f"{key} {name}: {why}" for key, named in reasons(report).items() for name, why in named.items()]

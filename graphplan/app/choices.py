@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from graphplan.app import drafting
-from graphplan.app.drafting import NAMES, Options
+from graphplan.app.drafting import KEYS, with_sheet
 from graphplan.app.files import STANDARD, kind
 from graphplan.errors import Refused, printable
 from graphplan.mechanism.sections import INERTIA, METHOD_PAIRS, METHODS, OF_PATHS, PREFERENCES
@@ -27,11 +27,11 @@ from graphplan.words import LANGUAGES
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
     from graphplan.app.subjects import FoundMechanism, Subject
-    from graphplan.check.report import Report
     from graphplan.design.hand import Pencil
     from graphplan.mechanism.model import Scene
+    from graphplan.mechanism.tasks import SheetTask
 
-Task = TypeVar("Task")
+Task = TypeVar("Task", bound="SheetTask")
 RED, PLAIN = "\x1b[31m", "\x1b[0m"
 PROGRESS_WIDTH = 60  # of the line of progress, which is written over and over
 
@@ -73,9 +73,7 @@ class Messages:
 
 
 # What options say that commands have no more, by name: where it stands in a scene.
-ON_THE_SHEET = ("frame", "protocol", "curves", "centrodes", "positions", "inertia", "rounds", "strict", "prefer",
-                "pencil", "method", "plan", "language", "paper")
-IN_THE_SCENE = {f"--{name}": f"sheet.{name}" for name in ON_THE_SHEET} | {
+IN_THE_SCENE = {f"--{key}": f"sheet.{key}" for key in KEYS} | {
     f"--{name}": f"flywheel.{name}" for name in ("speed", "closes")}
 
 
@@ -168,15 +166,9 @@ def add_curves(command: argparse.ArgumentParser) -> None:
 
 def add_pencil(command: argparse.ArgumentParser) -> None:
     """The option that sets the accuracy of the pencil."""
-    command.add_argument("--pencil", type=_pencil, metavar="SIZES",
+    command.add_argument("--pencil", metavar="SIZES",
                          help="errors of the pencil, as standard deviations: such as point=0.1,edge=0.1,"
                          "opening=0.1 in mm of paper and angle=0.05 in degrees (the defaults)")
-
-
-def _pencil(text: str) -> Pencil:
-    from graphplan.design.hand import pencil
-
-    return pencil(text)
 
 
 def add_preference(command: argparse.ArgumentParser) -> None:
@@ -189,10 +181,9 @@ def add_preference(command: argparse.ArgumentParser) -> None:
 # --- asked for -----------------------------------------------------------------------------------------------------
 
 
-def drawing_options(options: argparse.Namespace, **more: Any) -> Options:
-    """Drawing options of the command line."""
-    values = {name: value for name in NAMES if name != "positions" and (value := getattr(options, name, None))}
-    return Options(**(values | more))
+def sheet_keys(options: argparse.Namespace) -> dict[str, Any]:
+    """The keys of [sheet] that options say."""
+    return {key: value for key in KEYS if key != "positions" and (value := getattr(options, key, None))}
 
 
 def text_of_scene(options: argparse.Namespace, source: str) -> str:
@@ -228,7 +219,7 @@ def _value(text: str) -> object:
 
 
 def load_scene(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
-    """The scene, by default that which is named, with as many rounds of friction as the options ask for, if they do."""
+    """The scene, by default that which is named, in the pose and with the keys of [sheet] that options say."""
     from graphplan.mechanism.written_scene import parse
 
     if scene is None:
@@ -239,7 +230,7 @@ def load_scene(options: argparse.Namespace, scene: Scene | None = None) -> Scene
         from graphplan.mechanism.written_scene import parse_pose
 
         scene = at(scene, parse_pose(options.at))
-    return drafting.with_rounds(scene, drawing_options(options))
+    return with_sheet(scene, sheet_keys(options))
 
 
 def load_source(options: argparse.Namespace, *unused: str) -> Scene | FoundMechanism:
@@ -257,7 +248,7 @@ def load_source(options: argparse.Namespace, *unused: str) -> Scene | FoundMecha
     for option in unused:
         if getattr(options, option):
             raise Refused(f"--{option}", f"it does not apply to a task of graphplan {kind.command}", "leave it out")
-    found: FoundMechanism = leaves.module(kind.finder).find(text, options.scene, drawing_options(options))
+    found: FoundMechanism = with_sheet(leaves.module(kind.finder).find(text, options.scene), sheet_keys(options))
     return found
 
 
@@ -269,20 +260,9 @@ def question(options: argparse.Namespace, scene: Scene) -> None:
         Messages(options.quiet).remark(f"{scene.name}: {fault}")
 
 
-def load_sheet_scene(options: argparse.Namespace) -> Scene:
-    """Load the scene with the options of its sheet; its title in the sheet's language."""
-    return drafting.on_sheet(load_scene(options), drawing_options(options))
-
-
-def make_report(options: argparse.Namespace, scene: Scene, **more: Any) -> Report:
-    """The construction that the options ask for, compared with the solver."""
-    return drafting.make_report(scene, drawing_options(options), **more)
-
-
-def on_paper(options: argparse.Namespace, result: Report | None = None) -> Drafted:
-    """A construction on its sheet, drawn with the pencil and in the language that are asked for."""
-    scene = load_scene(options) if result is None else result.scene
-    drafted = drafting.on_paper(scene, drawing_options(options), result)
+def on_paper(options: argparse.Namespace, **keys: str) -> Drafted:
+    """The construction of the scene that is named on its sheet, with further keys of [sheet]."""
+    drafted = drafting.on_paper(with_sheet(load_scene(options), keys))
     for line in drafted.drawing.missing:
         Messages(options.quiet).remark(f"{options.scene}: {line}")
     return drafted
@@ -290,7 +270,9 @@ def on_paper(options: argparse.Namespace, result: Report | None = None) -> Draft
 
 def pencil(options: argparse.Namespace) -> Pencil:
     """The pencil that is asked for, or a careful hand's."""
-    return drafting.pencil(drawing_options(options))
+    from graphplan.design import hand
+
+    return hand.pencil(options.pencil or "")
 
 
 def read_task(options: argparse.Namespace, load: Callable[[str], Task], parse: Callable[[str, str], Task]) -> Task:
@@ -299,7 +281,8 @@ def read_task(options: argparse.Namespace, load: Callable[[str], Task], parse: C
     named = output not in (None, STANDARD) and "\0" not in output + source  # no file has a null byte in its name
     if named and os.path.realpath(output) == os.path.realpath(source):
         raise Refused(f"-o {output}", "the task file would be overwritten", "another name")
-    return parse(text_of_scene(options, source), source) if options.settings else load(source)
+    task = parse(text_of_scene(options, source), source) if options.settings else load(source)
+    return with_sheet(task, sheet_keys(options))
 
 
 SCENE, JSON = (".toml",), (".json",)  # endings of what alone an option applies to
@@ -339,4 +322,4 @@ def load_driven(options: argparse.Namespace) -> Scene:
 
     scene = parse(text_of_scene(options, options.scene), options.scene, by_drive=True)
     question(options, scene)
-    return scene
+    return with_sheet(scene, sheet_keys(options))

@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Unpack
 
 from graphplan.app import files
-from graphplan.app.drafting import Keywords, Options, options_of
+from graphplan.app.drafting import Keywords, with_sheet
 from graphplan.check.cycle import efficiency_of, requested_points
 from graphplan.check.stream import PoseBlock, Stream, Summary
 from graphplan.mechanism.model import Frozen, NamedValues
@@ -31,11 +31,10 @@ class WorkingDrawing(Construction):
     """A construction of a scene: ordered steps, each with what it draws, from what, with which instrument, and why.
 
     `velocity`, `acceleration`, `omega`, `alpha`, `reactions` and `curvature` are mappings by name, in scene units,
-    vectors as complex numbers. `given_scene` and `options` are what it was drawn from.
+    vectors as complex numbers. `given_scene` is what it was drawn from.
     """
 
     given_scene: Scene | None = None
-    options: Options = field(default_factory=Options)
 
     def save(self, path: str | os.PathLike[str], *, until: str = "", steps: str = "", strip: str = "", by: str = "",
              numbers: bool = False, dpi: int | None = None, **options: Unpack[Keywords]) -> None:
@@ -47,9 +46,8 @@ class WorkingDrawing(Construction):
         """
         from graphplan.app.pages import SheetExcerpt, save_sheet
 
-        chosen = options_of({**{name: value for name, value in vars(self.options).items() if value}, **options})
         excerpt = SheetExcerpt(str(until), steps, strip, by, numbers, dpi)
-        save_sheet(self.given_scene or self.scene, os.fspath(path), chosen, excerpt)
+        save_sheet(with_sheet(self.given_scene or self.scene, options), os.fspath(path), excerpt)
 
     def evaluate(self, poses: PoseSeries | Mapping[str, Any] | None = None,  # type: ignore[override]
                  guides: Mapping[str, Any] | None = None, *, points: Mapping[str, Any] | None = None,
@@ -102,7 +100,7 @@ class WorkingDrawing(Construction):
         """The sheet of a construction, drawn when a notebook asks."""
         from graphplan.app.pages import SheetExcerpt, sheet_files
 
-        sheet = sheet_files(self.given_scene or self.scene, None, "svg", self.options, SheetExcerpt())
+        sheet = sheet_files(self.given_scene or self.scene, None, "svg", SheetExcerpt())
         return str(sheet.contents[0][1])
 
 
@@ -117,16 +115,15 @@ def construct(scene: Scene, *, checked: bool = True, **options: Unpack[Keywords]
     Fails with `Disagreement` where every way to draw it differs from the solver, with `SingularPose` where there are
     numbers and what is asked does not exist, and with `Refused` where no move of the planner reaches it.
     """
-    from graphplan.app.drafting import wishes_of, with_rounds
+    from graphplan.app.drafting import wishes_of
     from graphplan.check.trusted import construct as trusted
 
-    chosen = options_of(options)
-    asked = with_rounds(scene, chosen)
-    wishes, reasons = wishes_of(asked, chosen)
-    drawing = trusted(asked, wishes, checked=checked)
+    scene = with_sheet(scene, options)
+    wishes, reasons = wishes_of(scene)
+    drawing = trusted(scene, wishes, checked=checked)
     drawing.notes.extend(reasons)
     values = {item.name: getattr(drawing, item.name) for item in fields(drawing)}
-    return WorkingDrawing(**values, given_scene=scene, options=replace(chosen, method=wishes.method))
+    return WorkingDrawing(**values, given_scene=scene)
 
 
 def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None, *, compiled: bool = False,

@@ -27,8 +27,9 @@ import os
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from graphplan.app.choices import Messages, add_choices, add_curves, count, error, load_sheet_scene, on_paper
+from graphplan.app.choices import Messages, add_choices, add_curves, count, error, load_scene, on_paper
 from graphplan.app.cycle_plot import Member, add_plot, check_plot, plot_file, plot_members
+from graphplan.app.drafting import translate_title
 from graphplan.app.files import STANDARD, kind, refuse_same_output, refuse_without_room, write
 from graphplan.errors import Refused
 from graphplan.mechanism.written_scene import MAX_TRAVEL
@@ -87,11 +88,11 @@ def run(options: argparse.Namespace) -> int:
         write(animation(options, span), options.animate)
     if (options.animate or options.paths) and not (options.output or options.plot):
         return 0
-    members = plot_members(options, plot_ending) if options.plot else [Member("", load_sheet_scene(options))]
+    members = plot_members(options, plot_ending) if options.plot else [Member("", translate_title(load_scene(options)))]
     scene = members[0].scene
     workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
     messages = Messages(options.quiet)
-    how: Any = {"wishes": Design(options.plan, inertia=scene.sheet.inertia), "workers": workers,
+    how: Any = {"wishes": Design(inertia=scene.sheet.inertia), "workers": workers,
                 "machine": options.compiled,
                 "progress": lambda what, done, of: messages.progress(f"{what}: {done} of {of}" if done < of else "")}
     if options.output not in (None, STANDARD) and not options.plot:
@@ -125,7 +126,7 @@ def _paths(options: argparse.Namespace) -> str:
     from graphplan.sheet.layout.layout import layout
     from graphplan.words.tongue import tongue
 
-    scene = load_sheet_scene(options)
+    scene = translate_title(load_scene(options))
     if not (scene.sheet.curves or scene.sheet.centrodes):
         raise Refused("--paths", "no point or link is named", 'such as --curves M, or --centrodes "2 frame"')
     nothing = replace(scene.find, velocity=(), acceleration=(), links=(), slides=(), reactions=())
@@ -298,8 +299,7 @@ def animation(options: argparse.Namespace, span: tuple[float, float] | None = No
     from graphplan.cycle.turn import loop
     from graphplan.output.animation import gif, svg
 
-    options.protocol = "none"  # there is no time to read it
-    on_sheet, messages = on_paper(options), Messages(options.quiet)
+    on_sheet, messages = on_paper(options, protocol="none"), Messages(options.quiet)  # there is no time to read it
     motion = loop(on_sheet.drawing.scene, options.positions or DEFAULT_POSES, span)
     film = _film(on_sheet.drawing, on_sheet.composition, motion, options.seconds or DEFAULT_SECONDS, messages)
     width = options.width or DEFAULT_WIDTH

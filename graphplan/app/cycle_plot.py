@@ -9,8 +9,8 @@ from dataclasses import replace
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from graphplan.app.choices import drawing_options, load_scene, load_sheet_scene, question, set_value, text_of_scene
-from graphplan.app.drafting import on_sheet
+from graphplan.app.choices import load_scene, question, set_value, text_of_scene
+from graphplan.app.drafting import translate_title
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 
@@ -57,7 +57,7 @@ def plot_members(options: argparse.Namespace, ending: str) -> list[Member]:
     """Return the scenes whose cycles are plotted, each asking for what is named, which is checked first."""
     from graphplan.check.cycle import quantities, scene_asking_for
 
-    members = scenes_of_family(options) if options.vary else [Member("", load_sheet_scene(options))]
+    members = scenes_of_family(options) if options.vary else [Member("", translate_title(load_scene(options)))]
     if is_plain(members[0].scene, options):
         members = [Member(label, scene_asking(scene, options.of)) for label, scene in members]
         _check_names(members[0].scene, options)
@@ -109,8 +109,7 @@ def scenes_of_family(options: argparse.Namespace) -> list[Member]:
     for value in each:
         scene = parse(set_value(text, path.strip(), value, options.scene), options.scene)
         question(options, scene)
-        posed = load_scene(options, scene)
-        members.append(Member(f"{path.strip()} = {value}", on_sheet(posed, drawing_options(options))))
+        members.append(Member(f"{path.strip()} = {value}", translate_title(load_scene(options, scene))))
     return members
 
 
@@ -233,7 +232,7 @@ def _check_names(scene: Scene, options: argparse.Namespace) -> None:
     from graphplan.methods.design import Design
     from graphplan.output.tables import named_quantities
 
-    drawing = general_construction(scene, Design(options.plan, inertia=scene.sheet.inertia))
+    drawing = general_construction(scene, Design(inertia=scene.sheet.inertia))
     points = {name: np.zeros(1, complex) for name in (*scene.find.velocity, *scene.find.acceleration,
                                                       *scene.sheet.curves)}
     rubs = bool(scene.loads and scene.loads.frictions)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from graphplan.app.drafting import Options, drawable, on_paper, wishes_of
+from graphplan.app.drafting import drawable, on_paper, wishes_of
 from graphplan.design.cost import TERMS
 from graphplan.design.decide import MAX_COST, Candidate, candidates
 from graphplan.mechanism.model import Scene
@@ -13,13 +13,13 @@ HEAD = (f"# costs in %: {', '.join(f'{term.price:g} {term.each}' for term in TER
         f"# what costs {MAX_COST:g} or less is taken at once")
 
 
-def design_text(scene: Scene, options: Options) -> str:
+def design_text(scene: Scene) -> str:
     """The chosen design, with its paper, as a table of a scene; in comments what it and the others cost."""
-    result = drawable(scene, options)
-    drafted, design = on_paper(scene, options, result), result.drawing.design
+    result = drawable(scene)
+    drafted, design = on_paper(scene, result), result.drawing.design
     keys = design.keys | {"paper": drafted.paper}
     lines = ["[sheet]", *(f"{key} = {toml_value(value, key)}" for key, value in keys.items())]
-    choices = candidates(result.scene, wishes_of(result.scene, options)[0])
+    choices = candidates(result.scene, wishes_of(result.scene)[0])
     return "\n".join((*lines, "", *_costs(choices, design))) + "\n"
 
 

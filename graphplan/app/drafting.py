@@ -1,66 +1,46 @@
-"""How a scene is drawn and what its sheet looks like, as far as it is said beside the scene itself.
+"""How a scene is drawn and what its sheet looks like: options and keywords are keys of its [sheet].
 
-From a scene to its checked construction, and to its sheet, as the options and the scene itself have it.
+From a scene to its checked construction, and to its sheet, as its keys have it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import replace
 from itertools import permutations
 from typing import TYPE_CHECKING, Any, TypedDict, TypeVar
 
 from graphplan.errors import ConstructionError, Disagreement, Refused, SingularPose
 from graphplan.mechanism.fields import suggestion
+from graphplan.mechanism.model import Presentation, Scene
 from graphplan.mechanism.pairs.pair import FRAME
-from graphplan.methods.design import Design
+from graphplan.mechanism.sections import FRAMES
+from graphplan.mechanism.tasks import SheetTask
+from graphplan.mechanism.units import PAPERS
+from graphplan.methods.design import Design, merged_plans
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
+    from graphplan.app.subjects import FoundMechanism
     from graphplan.check.report import Report
     from graphplan.design.hand import Pencil
-    from graphplan.mechanism.model import Scene
-    from graphplan.mechanism.tasks import SheetTask
-
-@dataclass(frozen=True)
-class Options:
-    """Choices for drawing a scene and its sheet; an empty one is left to [sheet], and else to graphplan.
-
-    `method`, `plan`, `inertia`, `strict`: as `construct` has them; `rounds` of friction are drawn. `prefer` weighs all
-    forms: simple, accurate or balanced, by a `pencil` of some accuracy. `paper`, `frame`, `language`: of the sheet;
-    `protocol`: where its words stand; `curves` and `centrodes`: names of points and of pairs of links, with commas
-    between them, or all; `positions` of the mechanism are drawn in faint lines. Scene keys have the same names and
-    meanings.
-    """
-
-    method: str = ""
-    plan: str = ""
-    inertia: str = ""
-    rounds: int | None = None
-    strict: bool = False
-    prefer: str = ""
-    pencil: Pencil | None = None
-    paper: str = ""
-    frame: str = ""
-    language: str = ""
-    protocol: str = ""
-    curves: str = ""
-    centrodes: str = ""
-    positions: int | None = None
 
 
 class SheetKeywords(TypedDict, total=False):
-    """Keywords of functions for any sheet; the pencil may be its text, such as "point=0.2"."""
+    """The keys of any [sheet] that functions have as keywords; an empty one is left to the scene or the task."""
 
-    pencil: Pencil | str | None
+    pencil: str | None
     paper: str
     frame: str
     language: str
 
 
 class Keywords(SheetKeywords, total=False):
-    """Keywords of functions for a sheet and its construction."""
+    """The keys of a scene's [sheet] that functions have as keywords, and commands as options.
+
+    Names in `curves` and `centrodes` have commas between them, or are "all".
+    """
 
     method: str
     plan: str
@@ -74,99 +54,83 @@ class Keywords(SheetKeywords, total=False):
     positions: int | None
 
 
-NAMES = tuple(field.name for field in fields(Options))
+KEYS = tuple(Keywords.__annotations__)
+CHOICES_OF_KEYS = {"paper": PAPERS, "frame": FRAMES, "language": LANGUAGES}
+AUTO = "auto"  # words stand beside the plans, or on pages of their own where these need the room
+Source = TypeVar("Source", bound="Scene | SheetTask | FoundMechanism")
 
 
-def options_of(keywords: Mapping[str, object]) -> Options:
-    """The options that keywords say, a pencil as its text; fails with `Refused` where there is no such option."""
-    for name in keywords:
-        if name not in NAMES:
-            raise Refused(f"option {name}", "there is no such option", suggestion(name, NAMES, "option"))
-    values: dict[str, Any] = {name: value for name, value in keywords.items() if value is not None}
-    if isinstance(values.get("pencil"), str):
+def with_sheet(source: Source, keys: Mapping[str, Any]) -> Source:
+    """A scene, a task or what is found for one, with other keys of [sheet]; of plans those of motion, or of forces.
+
+    Fails with `Refused` where there is no such key, value, point or link.
+    """
+    if not isinstance(source, Scene | SheetTask):
+        return source.with_sheet(keys)
+    for key in keys:
+        if key not in KEYS:
+            raise Refused(f"option {key}", "there is no such option", suggestion(key, KEYS, "option"))
+    values = {key: value for key, value in keys.items() if value}
+    for key, choices in CHOICES_OF_KEYS.items():
+        if key in values and values[key] not in choices:
+            raise Refused(f"{key} {values[key]}", f"there is no such {key}", suggestion(values[key], choices, key))
+    if isinstance(source, Scene):
+        values |= {key: read(source, values[key]) for key, read in NAME_LISTS.items() if key in values}
+    if "plan" in values:
+        values["plan"] = merged_plans(values["plan"], source.sheet.plan)
+    if "pencil" in values:
         from graphplan.design.hand import pencil
 
-        values["pencil"] = pencil(values["pencil"])
-    return Options(**values)
+        values["pencil"] = pencil(values["pencil"]).text
+    return replace(source, sheet=replace(source.sheet, **values))
 
 
-Source = TypeVar("Source", bound="Scene | SheetTask")
-AUTO = "auto"  # words stand beside the plans, or on pages of their own where these need the room
-
-
-def with_rounds(scene: Scene, options: Options) -> Scene:
-    """The scene with as many rounds of friction as are asked for, if any."""
-    rounds = options.rounds or scene.sheet.rounds
-    if not rounds or scene.loads is None:
-        return scene
-    return replace(scene, loads=replace(scene.loads, rounds=rounds))
-
-
-def on_sheet(scene: Scene, options: Options, **more: Any) -> Scene:
-    """The scene with its sheet as the options and `more` have it, where they say; its title in the sheet's language."""
+def translate_title(scene: Scene) -> Scene:
+    """The scene with its title in the sheet's language."""
     from graphplan.words.tongue import tongue
 
-    wishes = dict[str, Any](more)
-    if options.curves:
-        wishes["curves"] = _movable(scene, options.curves)
-    if options.centrodes:
-        wishes["centrodes"] = _rolling(scene, options.centrodes)
-    if options.positions:
-        wishes["positions"] = options.positions
-    scene = with_presentation(scene, options, **wishes)
     return replace(scene, title=tongue(scene.sheet.language).title(scene.title))
 
 
-def as_drawn(scene: Scene, options: Options, drafted: Drafted) -> str:
-    """The text of a scene that is on its sheet, with its pose and with what the options say, its design and its paper
-    among the keys of [sheet]: read again, it is drawn so without being told, whatever is chosen by then."""
+def as_drawn(scene: Scene, drafted: Drafted) -> str:
+    """The text of a scene that is on its sheet, with its pose, its design and its paper, and with the keys of [sheet]
+    that it has beside its text: read again, it is drawn so without being told, whatever is chosen by then."""
+    from graphplan.mechanism.scene import tables_of
     from graphplan.mechanism.scene_text import with_keys
     from graphplan.mechanism.written_scene import toml_value, with_pose
 
-    keys = {name: value for name in NAMES if (value := getattr(options, name))}
-    keys |= {name: list(getattr(scene.sheet, name)) for name in ("curves", "centrodes") if name in keys}
-    if options.pencil:
-        keys["pencil"] = options.pencil.text
+    if not scene.text:
+        return ""
+    written: Any = tables_of(scene.text, scene.name).get("sheet", {})
+    written = vars(Presentation()) | written
+    values = {key: getattr(scene.sheet, key) for key in KEYS}
+    values = {key: [*value] if isinstance(value, tuple) else value for key, value in values.items()}
+    keys = {key: value for key, value in values.items() if value and value != written[key]}
     tied = {"kappa": scene.sheet.kappa, "phi": scene.sheet.phi}
     keys |= {key: value for key, value in drafted.drawing.design.chosen_keys.items() if not tied.get(key)}
     keys.setdefault("paper", drafted.paper)
-    text = scene.text
-    values = {key: toml_value(value, key) for key, value in keys.items()}
-    return with_pose(with_keys(text, "sheet", values), scene) if text else ""
+    text = with_keys(scene.text, "sheet", {key: toml_value(value, key) for key, value in keys.items()})
+    return with_pose(text, scene)
 
 
-def with_presentation(source: Source, options: Options, **more: Any) -> Source:
-    """A scene or a task with its sheet as the options and `more` have it, where they say."""
-    from graphplan.mechanism.sections import FRAMES
-    from graphplan.mechanism.units import PAPERS
-
-    choices = {"paper": PAPERS, "frame": FRAMES, "language": LANGUAGES}
-    chosen = {key: value for key in choices if (value := getattr(options, key))}
-    for key, value in chosen.items():
-        if value not in choices[key]:
-            raise Refused(f"{key} {value}", f"there is no such {key}", suggestion(value, choices[key], key))
-    return replace(source, sheet=replace(source.sheet, **chosen, **more))
-
-
-def make_report(scene: Scene, options: Options, **more: Any) -> Report:
-    """The construction that the options ask for, compared with the solver; its notes say why a form is preferred."""
+def make_report(scene: Scene, **more: Any) -> Report:
+    """The construction of a scene, compared with the solver; its notes say why a form is preferred."""
     from graphplan.check.trusted import report
 
-    wishes, reasons = wishes_of(scene, options)
+    wishes, reasons = wishes_of(scene)
     result = report(scene, wishes, **more)
     result.drawing.notes.extend(reasons)
     return result
 
 
-def drawable(scene: Scene, options: Options) -> Report:
+def drawable(scene: Scene) -> Report:
     """Report of the scene on its sheet, or of its regular part in this pose; its notes have the results that are not
     drawn, with the reason."""
     from graphplan.check.answerable import report_regular_part
     from graphplan.check.json_results import reasons
     from graphplan.phrases import said
 
-    result = report_regular_part(on_sheet(with_rounds(scene, options), options),
-                                 lambda scene: make_report(scene, options))
+    result = report_regular_part(translate_title(scene), make_report)
     left_out = dict[str, list[str]]()
     if result.given_scene is not result.scene:
         for named in reasons(result).values():
@@ -178,44 +142,42 @@ def drawable(scene: Scene, options: Options) -> Report:
     return result
 
 
-def wishes_of(scene: Scene, options: Options) -> tuple[Design, tuple[str, ...]]:
-    """Wishes for a drawing, with the named or preferred method, and the reasons for the preference, line by line.
+def wishes_of(scene: Scene) -> tuple[Design, tuple[str, ...]]:
+    """Wishes for a drawing beside the scene's plans and method, and the reasons for a preferred form, line by line.
 
     Where no form can be weighed, the pose's own is drawn, as without a preference.
     """
-    wishes = Design(options.plan, options.method, inertia=options.inertia or scene.sheet.inertia,
-                    strict=options.strict or scene.sheet.strict)
-    prefer = options.prefer or scene.sheet.prefer
-    if not prefer:
+    sheet = scene.sheet
+    wishes = Design(method=sheet.method, inertia=sheet.inertia, strict=sheet.strict)
+    if not sheet.prefer:
         return wishes, ()
     from graphplan.accuracy.preference import preferred_form, reason
 
     try:
-        form = preferred_form(scene, prefer, pencil(options, scene), wishes)
+        form = preferred_form(scene, sheet.prefer, pencil(scene), wishes)
     except (ConstructionError, Disagreement, Refused, SingularPose) as fault:
-        if options.method:
+        if sheet.method:
             raise
         return wishes, (reason(fault),)
     return replace(wishes, method=form.method), form.remarks
 
 
-def on_paper(scene: Scene, options: Options, result: Report | None = None) -> Drafted:
-    """A construction on its sheet, drawn with the pencil and in the language that are asked for."""
+def on_paper(scene: Scene, result: Report | None = None) -> Drafted:
+    """A construction on its sheet, drawn with its pencil and in its language."""
     from graphplan.accuracy.drafted import draft
     from graphplan.words.tongue import tongue
 
-    result = result or drawable(scene, options)
+    result = result or drawable(scene)
     sheet = result.scene.sheet
-    return draft(result.drawing, pencil(options, scene), check=result.check, tongue=tongue(sheet.language),
-                 protocol=options.protocol or sheet.protocol or AUTO)
+    return draft(result.drawing, pencil(scene), check=result.check, tongue=tongue(sheet.language),
+                 protocol=sheet.protocol or AUTO)
 
 
-def pencil(options: Options, source: Scene | SheetTask | None = None) -> Pencil:
-    """The pencil that is asked for, by the options or by the sheet of a scene, or a careful hand's."""
+def pencil(source: Scene | SheetTask) -> Pencil:
+    """The pencil of a sheet, or a careful hand's."""
     from graphplan.design import hand
 
-    text = source.sheet.pencil if source is not None else ""
-    return options.pencil or (hand.pencil(text) if text else hand.Pencil())
+    return hand.pencil(source.sheet.pencil)
 
 
 def _movable(scene: Scene, text: str) -> tuple[str, ...]:
@@ -240,6 +202,9 @@ def _rolling(scene: Scene, text: str) -> tuple[str, ...]:
             why = f"there are no two links {links}" if links else "no links are named"
             raise Refused(f"--centrodes {text}", why, suggestion(links, choices, "pair of links"))
     return tuple(dict.fromkeys(pairs))
+
+
+NAME_LISTS = {"curves": _movable, "centrodes": _rolling}
 
 
 # ---- live pages ------------------------------------------------------------------------------------------------------

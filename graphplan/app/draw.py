@@ -25,7 +25,6 @@ from graphplan.app.choices import (
     add_sheet,
     add_travel,
     count,
-    drawing_options,
     load_scene,
 )
 from graphplan.app.files import DEFAULT_DPI, STANDARD, write
@@ -60,11 +59,11 @@ def run(options: argparse.Namespace) -> int:
     if options.design:
         from graphplan.app.designs import design_text
 
-        write(design_text(load_scene(options), drawing_options(options)), options.output or STANDARD)
+        write(design_text(load_scene(options)), options.output or STANDARD)
         return 0
     sheet_format(options.output, options.dpi)  # before any work is done
     excerpt = SheetExcerpt(options.until or "", options.steps or "", options.strip or "", options.by or "",
                            options.numbers, options.dpi)
-    for line in save_sheet(load_scene(options), options.output, drawing_options(options), excerpt):
+    for line in save_sheet(load_scene(options), options.output, excerpt):
         Messages(options.quiet).remark(f"{options.scene}: {line}")
     return 0

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.app.choices import add_choices, add_offer, add_sheet, add_travel, drawing_options, load_source
+from graphplan.app.choices import add_choices, add_offer, add_sheet, add_travel, load_source
 from graphplan.app.files import PARTS, handout_ending
 from graphplan.app.pages import save_handout
 
@@ -31,6 +31,5 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     handout_ending(options.output, options.only)
-    save_handout(load_source(options, "plan", "strict", "at"), options.output, drawing_options(options), options.only,
-                 options.choices)
+    save_handout(load_source(options, "plan", "strict", "at"), options.output, options.only, options.choices)
     return 0

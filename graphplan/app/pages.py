@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
 from graphplan import leaves
 from graphplan.app import drafting, files
-from graphplan.app.drafting import Keywords, Options
+from graphplan.app.drafting import Keywords, with_sheet
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 from graphplan.output import back_end
@@ -51,23 +51,23 @@ class SheetFiles(NamedTuple):
     missing: tuple[Said, ...]
 
 
-def save_sheet(scene: Scene, path: str | None, options: Options, excerpt: SheetExcerpt) -> tuple[Said, ...]:
+def save_sheet(scene: Scene, path: str | None, excerpt: SheetExcerpt) -> tuple[Said, ...]:
     """Write the sheet of a scene by the ending of a path, further pages beside it; without one, or where it is `-`, SVG
     on standard output. Return what is not drawn as the pose is singular in part."""
-    sheet = sheet_files(scene, path, sheet_format(path, excerpt.dpi), options, excerpt)
+    sheet = sheet_files(scene, path, sheet_format(path, excerpt.dpi), excerpt)
     files.write_all(sheet.contents)
     return sheet.missing
 
 
-def sheet_files(scene: Scene, path: str | None, name: str, options: Options, excerpt: SheetExcerpt) -> SheetFiles:
+def sheet_files(scene: Scene, path: str | None, name: str, excerpt: SheetExcerpt) -> SheetFiles:
     """Return the files of the sheet of a scene in a format; without a path the first page alone."""
     from graphplan.sheet.layout.layout import pages, with_numbers
     from graphplan.sheet.strip import by_stages, strip
 
-    report = drafting.drawable(scene, options)
-    drafted = drafting.on_paper(scene, options, report)
+    report = drafting.drawable(scene)
+    drafted = drafting.on_paper(scene, report)
     composition = with_numbers(drafted.composition) if excerpt.numbers else drafted.composition
-    names, text = files.page_names(path, 2), drafting.as_drawn(report.scene, options, drafted)
+    names, text = files.page_names(path, 2), drafting.as_drawn(report.scene, drafted)
     more: list[Sheet] = []
     if excerpt.strip:
         sheets = strip(composition, cut=excerpt.strip)
@@ -118,26 +118,26 @@ def handout(scene: Scene | FoundMechanism, path: str | os.PathLike[str], *, only
     Further keywords say how it is drawn and what the sheet looks like, as for `construct` and `drawing.save`.
     Fails as they do.
     """
-    save_handout(scene, os.fspath(path), drafting.options_of(options), only, drafting.choices_of(choices))
+    save_handout(with_sheet(scene, options), os.fspath(path), only, drafting.choices_of(choices))
 
 
-def save_handout(scene: Scene | FoundMechanism, path: str, options: Options, only: str | None = None,
+def save_handout(scene: Scene | FoundMechanism, path: str, only: str | None = None,
                  offered: Collection[str] | None = None) -> None:
-    """Write a handout, with its options in one record."""
+    """Write a handout, with what the page offers."""
     if not isinstance(scene, Scene):
-        return scene.save_handout(path, options, only, offered)
+        return scene.save_handout(path, only, offered)
     if files.handout_ending(path, only) == ".html":
         if scene.assembly is not None:
             raise Refused("--at", "a page for a browser moves to any pose", "leave it out, or -o FILE.pdf")
-        files.write(_live_page(scene, options, offered), path)
+        files.write(_live_page(scene, offered), path)
     else:
-        files.write(back_end("pdf")(_pages(drafting.on_paper(scene, options).composition, only)), path)
+        files.write(back_end("pdf")(_pages(drafting.on_paper(scene).composition, only)), path)
 
 
-def _live_page(scene: Scene, options: Options, offered: Collection[str] | None) -> str:
+def _live_page(scene: Scene, offered: Collection[str] | None) -> str:
     """The page for a browser of a scene, with its steps in front."""
     page = next(leaf.pages[".html"] for leaf in leaves.leaves().values() if ".html" in leaf.pages)
-    return str(leaves.module(page).live_page(scene, options, offered))
+    return str(leaves.module(page).live_page(scene, offered))
 
 
 def _pages(composition: Composition, only: str | None) -> list[Sheet]:

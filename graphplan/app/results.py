@@ -9,7 +9,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Unpack
 
-from graphplan.app.drafting import Keywords, Options, options_of
+from graphplan.app.drafting import Keywords, make_report, pencil, wishes_of, with_sheet
 from graphplan.app.files import as_json, kind, write
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Frozen, NamedValues
@@ -137,43 +137,40 @@ def solve(scene: Scene, *, exact: bool = False, digits: int | None = None, bound
     Fails with `SingularPose` where nothing that is asked for exists, with `Disagreement` where every construction
     differs from the solver, and with `Refused` where exact numbers meet an irrational scene.
     """
-    return find_results(scene, options_of(options), exact=exact, digits=digits, bounds=bounds)
+    return find_results(with_sheet(scene, options), exact=exact, digits=digits, bounds=bounds,
+                        errors=bool(options.get("pencil")))
 
 
-def find_results(scene: Scene, options: Options, *, exact: bool = False, digits: int | None = None,
-                 bounds: bool = False) -> Results:
-    """Solve a scene, with the options in one record."""
-    from graphplan.app.drafting import with_rounds
-
-    scene = with_rounds(scene, options)
+def find_results(scene: Scene, *, exact: bool = False, digits: int | None = None, bounds: bool = False,
+                 errors: bool = False) -> Results:
+    """Solve a scene; with the `errors` that its pencil makes."""
     if digits is not None:
-        return Results(scene, as_json(_certified_data(scene, options, digits, exact), 2))
-    return Results(scene, as_json(_data(scene, options, exact, bounds), 2))
+        return Results(scene, as_json(_certified_data(scene, digits, exact), 2))
+    return Results(scene, as_json(_data(scene, exact, bounds, errors), 2))
 
 
-def _data(scene: Scene, options: Options, exact: bool, bounds: bool) -> dict[str, Any]:
+def _data(scene: Scene, exact: bool, bounds: bool, errors: bool) -> dict[str, Any]:
     """JSON data of a scene's results."""
-    from graphplan.app.drafting import make_report
     from graphplan.check.answerable import report_regular_part
     from graphplan.check.json_results import result_data
     from graphplan.mechanism.replaced import scene_beyond
 
     def report(scene: Scene) -> Report:
-        return make_report(scene, options, exact=exact, alone=not options.pencil)
+        return make_report(scene, exact=exact, alone=not errors)
 
     regular = report_regular_part(scene, report)
     printed = result_data(regular, each=bounds)
-    if options.pencil:
+    if errors:
         from graphplan.accuracy.drafted import draft
 
-        printed["pencil"] = draft(regular.drawing, options.pencil, check=regular.check).data
+        printed["pencil"] = draft(regular.drawing, pencil(scene), check=regular.check).data
     if after := scene_beyond(regular.scene):
         after_data = result_data(report(after))
         printed["beyond"] = {section: after_data[section] for section in ("points", "links", "slides")}
     return printed
 
 
-def _certified_data(scene: Scene, options: Options, digits: int, exact: bool) -> dict[str, Any]:
+def _certified_data(scene: Scene, digits: int, exact: bool) -> dict[str, Any]:
     """JSON data of a scene's results with proven bounds."""
     from graphplan.kernel.faithful import has_flint
 
@@ -181,12 +178,11 @@ def _certified_data(scene: Scene, options: Options, digits: int, exact: bool) ->
         raise Refused("--digits", "--exact already gives every digit", "leave out one of the two")
     if not has_flint():
         raise Refused("--digits", "proven digits need python-flint", "install graphplan[certified]")
-    from graphplan.app.drafting import wishes_of
     from graphplan.check.answerable import report_regular_part
     from graphplan.check.certified import Certified, certify
 
     def proven(scene: Scene) -> Certified:
-        return certify(scene, digits, wishes_of(scene, options)[0])
+        return certify(scene, digits, wishes_of(scene)[0])
 
     report = report_regular_part(scene, proven)
     if not report.agrees:

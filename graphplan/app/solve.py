@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.app.choices import add_choices, add_preference, add_travel, drawing_options, load_scene
+from graphplan.app.choices import add_choices, add_preference, add_travel, load_scene
 from graphplan.app.files import write
 from graphplan.app.results import find_results
 
@@ -30,7 +30,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    results = find_results(load_scene(options), drawing_options(options), exact=options.exact, digits=options.digits,
-                           bounds=options.bounds)
+    results = find_results(load_scene(options), exact=options.exact, digits=options.digits, bounds=options.bounds,
+                           errors=bool(options.pencil))
     write(results.text)
     return 0

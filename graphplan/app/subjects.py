@@ -10,9 +10,8 @@ import json
 import os
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, Self
 
-from graphplan.app.drafting import Options, on_sheet
 from graphplan.app.files import SHEETS, as_json, kind, write, write_sheets
 from graphplan.mechanism.written_scene import load
 
@@ -97,26 +96,23 @@ def driven_scene(source: Scene | str | os.PathLike[str]) -> Scene:
     return source if isinstance(source, Scene) else load(source, by_drive=True)
 
 
-def driven_on_sheet(source: Scene | str | os.PathLike[str], options: Options,
-                    change: Callable[[Scene], Scene] = lambda scene: scene) -> Scene:
-    """A driven scene with a change, on its sheet with the options."""
-    return on_sheet(change(driven_scene(source)), options)
-
-
 class FoundMechanism(Protocol):
     """A mechanism found for a task, which can stand instead of a scene: in handouts, on live pages, in classes."""
 
-    def on_paper(self, options: Options) -> Drafted:
+    def with_sheet(self, keys: Mapping[str, Any]) -> Self:
+        """What was found, on sheets with other keys of [sheet]."""
+
+    def on_paper(self) -> Drafted:
         """The construction on its sheet."""
 
-    def save_handout(self, path: str, options: Options, only: str | None, offered: Collection[str] | None) -> None:
+    def save_handout(self, path: str, only: str | None, offered: Collection[str] | None) -> None:
         """Write a handout of the task."""
 
-    def live_page(self, options: Options, offered: Collection[str] | None) -> str:
+    def live_page(self, offered: Collection[str] | None) -> str:
         """The page on which what is given is dragged."""
 
-    def write_variants(self, folder: str, options: Options, request: Any) -> None:
+    def write_variants(self, folder: str, request: Any) -> None:
         """Make the tasks of a class, as a `ClassRequest` asks for them, in a new folder."""
 
-    def desk(self, weights: Any, options: Options, words: Mapping[str, Any]) -> Any:
+    def desk(self, weights: Any, keys: Mapping[str, Any], words: Mapping[str, Any]) -> Any:
         """The `Desk` on which drawings of the task are judged."""

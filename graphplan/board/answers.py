@@ -14,13 +14,14 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from graphplan import leaves
-from graphplan.app.drafting import Options, drawable, on_paper, on_sheet
+from graphplan.app.drafting import drawable, on_paper, with_sheet
 from graphplan.app.pages import SheetExcerpt, sheet_files
 from graphplan.app.results import find_results
 from graphplan.board.edit import apply_operations
 from graphplan.board.view import scene_data, written_language
 from graphplan.cycle.turn import follow
 from graphplan.errors import GraphplanError, Refused
+from graphplan.mechanism.model import Scene
 from graphplan.mechanism.structure import structure
 from graphplan.mechanism.travel import travel_unit
 from graphplan.mechanism.written_scene import parse
@@ -62,15 +63,19 @@ def edit_scene(text: str, name: str, operations: Sequence[Mapping[str, Any]]) ->
 @with_faults
 def find_numbers(text: str, name: str) -> Answer:
     """The results as `graphplan solve` prints them."""
-    return {"results": find_results(parse(text, name), Options()).json(), "faults": []}
+    return {"results": find_results(parse(text, name)).json(), "faults": []}
+
+
+def _scene_in(language: str, text: str, name: str) -> Scene:
+    """The scene of a text, in a language where it names none."""
+    return with_sheet(parse(text, name), {} if written_language(text) else {"language": language})
 
 
 @with_faults
 def draw_sheet(text: str, name: str, language: str) -> Answer:
     """The pages of the sheet as SVG, and its steps in words, with their stages."""
-    scene = parse(text, name)
-    options = Options(language=written_language(text) or language)
-    drafted = on_paper(scene, options, drawable(scene, options))
+    scene = _scene_in(language, text, name)
+    drafted = on_paper(scene, drawable(scene))
     steps = words.steps(drafted.composition, structure(drafted.drawing.scene).lines())
     return {"pages": [svg.svg(page) for page in pages(drafted.composition)], "faults": [],
             "steps": {key: steps[key] for key in ("entries", "stages", "readings", "structure", "forms", "cost")},
@@ -90,9 +95,7 @@ def follow_motion(text: str, name: str) -> Answer:
 @with_faults
 def write_pdf(text: str, name: str, language: str) -> Answer:
     """The sheet as a PDF, in true size."""
-    scene = parse(text, name)
-    options = Options(language=written_language(text) or language)
-    contents = sheet_files(on_sheet(scene, options), None, "pdf", options, SheetExcerpt()).contents
+    contents = sheet_files(_scene_in(language, text, name), None, "pdf", SheetExcerpt()).contents
     return {"pdf": contents[0][1], "faults": []}
 
 
@@ -100,9 +103,7 @@ def write_pdf(text: str, name: str, language: str) -> Answer:
 def write_live_page(text: str, name: str, language: str) -> Answer:
     """The live page of the scene."""
     page = next(leaf.pages[".html"] for leaf in leaves.leaves().values() if ".html" in leaf.pages)
-    scene = parse(text, name)
-    options = Options(language=written_language(text) or language)
-    return {"page": leaves.module(page).live_page(scene, options), "faults": []}
+    return {"page": leaves.module(page).live_page(_scene_in(language, text, name)), "faults": []}
 
 
 @with_faults

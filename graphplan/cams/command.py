@@ -42,7 +42,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.app.choices import JSON, SCENE, Messages, add_subject, count, drawing_options, read_task, run_subject
+from graphplan.app.choices import JSON, SCENE, Messages, add_subject, count, read_task, run_subject
 from graphplan.app.subjects import Subject
 from graphplan.cams.subject import CAM_ENDINGS, POSITIONS, TOLERANCE, find_cam
 
@@ -72,4 +72,4 @@ def _cam(options: argparse.Namespace, ending: str, messages: Messages) -> Subjec
 
     task = read_task(options, load, parse)
     messages.progress("base circle and profile")
-    return find_cam(task, drawing_options(options), options.at, options.positions, options.tolerance)
+    return find_cam(task, options.at, options.positions, options.tolerance)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Unpack
 
-from graphplan.app.drafting import Options, SheetKeywords, options_of, with_presentation
+from graphplan.app.drafting import SheetKeywords, with_sheet
 from graphplan.app.subjects import Subject
 from graphplan.cams.tolerances import LEAST_TOLERANCE
 from graphplan.errors import Refused
@@ -30,10 +30,10 @@ def cam(task: str | os.PathLike[str], *, at: float | None = None, positions: int
     """
     from graphplan.cams.task import load
 
-    return find_cam(load(os.fspath(task)), options_of(options), at, positions, tolerance)
+    return find_cam(with_sheet(load(os.fspath(task)), options), at, positions, tolerance)
 
 
-def find_cam(task: Task, options: Options, at: float | None = None, positions: int | None = None,
+def find_cam(task: Task, at: float | None = None, positions: int | None = None,
              tolerance: float | None = None) -> Subject:
     """The cam of a task that is read."""
     from graphplan.cams.check import check_cam
@@ -45,7 +45,7 @@ def find_cam(task: Task, options: Options, at: float | None = None, positions: i
         raise Refused("--tolerance", f"{tolerance:g}", "give a length above 0, 1e-9 at least")
     if at is not None and not abs(at) < float("inf"):
         raise Refused("--at", f"{at:g}", "give an angle in degrees")
-    profile = make_loaded_cam(with_presentation(task, options))
+    profile = make_loaded_cam(task)
     drawing = draw_cam(profile)
     check, arcs_off = check_cam(drawing), TOLERANCE if tolerance is None else tolerance
 

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphplan.app.choices import add_choices, add_sheet, drawing_options, load_source
+from graphplan.app.choices import add_choices, add_sheet, load_source
 from graphplan.app.files import STANDARD, as_json, kind, write
 from graphplan.app.steps import data
 from graphplan.errors import Refused
@@ -67,11 +67,11 @@ def _source_on_paper(name: str, options: argparse.Namespace) -> Drafted:
 
     source = load_source(options, "plan", "inertia")
     if isinstance(source, Scene):
-        return on_paper(source, drawing_options(options))
+        return on_paper(source)
     if formats()[name].reads not in ("plates", "composition"):
         raise Refused(f"{options.output}: output", f"a task of a synthesis is not exported as {name}",
                       "GeoGebra or LaTeX; sheets, numbers and scenes are of graphplan synthesize -o")
-    return source.on_paper(drawing_options(options))
+    return source.on_paper()
 
 
 def export(name: str, on_sheet: Drafted) -> str | bytes:

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.app.choices import add_choices, add_language, add_offer, drawing_options, load_source
+from graphplan.app.choices import add_choices, add_language, add_offer, load_source
 from graphplan.app.files import LIVE_ENDINGS, kind, write
 from graphplan.live_pages.scene_page import live_page
 
@@ -35,4 +35,4 @@ def run(options: argparse.Namespace) -> int:
 
 def page(options: argparse.Namespace, shared: str = "") -> str:
     """The page of the scene that is named; with a `shared` script it leaves that out."""
-    return live_page(load_source(options, "plan"), drawing_options(options), options.choices, shared=shared)
+    return live_page(load_source(options, "plan"), options.choices, shared=shared)

@@ -9,12 +9,12 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Unpack
 
 from graphplan.app import drafting, files
-from graphplan.app.drafting import Keywords, Options
+from graphplan.app.drafting import Keywords, with_sheet
 from graphplan.errors import ConstructionError, Refused
 from graphplan.live_pages.page import PageVariant, on_one_sheet
 from graphplan.live_pages.page import live as page
-from graphplan.mechanism.model import Scene
-from graphplan.mechanism.sections import METHODS
+from graphplan.mechanism.model import Presentation, Scene
+from graphplan.mechanism.sections import METHODS, MOTION_PLANS
 from graphplan.methods.panels import MECHANISM
 from graphplan.words import LANGUAGES
 
@@ -43,36 +43,32 @@ def live(scene: Scene | FoundMechanism, path: str | os.PathLike[str], *, choices
     page of the task, on which given positions are dragged. Fails as `construct` does.
     """
     files.kind(os.fspath(path), files.LIVE_ENDINGS, "live page")
-    files.write(live_page(scene, drafting.options_of(options), drafting.choices_of(choices)), os.fspath(path))
+    files.write(live_page(with_sheet(scene, options), drafting.choices_of(choices)), os.fspath(path))
 
 
-def live_page(scene: Scene | FoundMechanism, options: Options, offered: Collection[str] | None = None, *,
-              shared: str = "") -> str:
+def live_page(scene: Scene | FoundMechanism, offered: Collection[str] | None = None, *, shared: str = "") -> str:
     """The page of a scene; with a `shared` script it leaves that out."""
     if not isinstance(scene, Scene):
-        return scene.live_page(options, offered)
-    scene = drafting.with_rounds(scene, options)
-    language = drafting.on_sheet(scene, options).sheet.language or "en"
-    variants = [*_variants(scene, options, offered)]
+        return scene.live_page(offered)
+    variants = [*_variants(scene, offered)]
     few = len(variants[0].compositions) <= MAX_OFFERED
-    languages = drafting.languages_of(language, offered, LANGUAGES if few else ("en",))
+    languages = drafting.languages_of(scene.sheet.language, offered, LANGUAGES if few else ("en",))
     return page(variants, languages, scene.title, shared=shared)
 
 
-def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -> Iterator[PageVariant]:
-    """The ways to draw the scene that may be chosen: first as the options have it, then by other plans and methods,
+def _variants(scene: Scene, offered: Collection[str] | None) -> Iterator[PageVariant]:
+    """The ways to draw the scene that may be chosen: first as its sheet has it, then by other plans and methods,
     those that can be drawn, each once."""
     from graphplan.accuracy.reach import MAX_CONSTRUCTIONS, constructions, reachable_poses
     from graphplan.sheet.layout.screen import compose_for_screen
 
     earlier, poses, turn, own_plan = list[list[str]](), None, None, None  # all move alike: poses are looked for once
-    for plan, method in _plans_and_methods(options, offered):
+    for plan, method in _plans_and_methods(scene.sheet, offered):
         first = not earlier
-        how = replace(options, plan=plan, method=method)
-        if method == options.method and plan.split(",")[0] == own_plan:
+        if method == scene.sheet.method and plan.split(",")[0] == own_plan:
             continue  # by these plans it is drawn already
         try:
-            report = drafting.drawable(scene, how)
+            report = drafting.drawable(replace(scene, sheet=replace(scene.sheet, plan=plan, method=method)))
             drawing = replace(report.drawing, scene=report.given_scene)
         except (Refused, ConstructionError):
             if first:
@@ -113,10 +109,10 @@ def plans_over_travel(drawing: Construction, alternatives: Sequence[Construction
     return replace(plans, swept={MECHANISM: swept[MECHANISM]} if MECHANISM in swept else {})
 
 
-def _plans_and_methods(options: Options, offered: Collection[str] | None) -> Iterator[tuple[str, str]]:
-    """Pairs of plan and method: first as the options have them, then the alternatives that are wanted."""
-    plan, method, wanted = options.plan, options.method, offered or ("plans",) * (offered is None)
-    forces = ",".join(word for word in plan.split(",") if word not in PLANS)
+def _plans_and_methods(sheet: Presentation, offered: Collection[str] | None) -> Iterator[tuple[str, str]]:
+    """Pairs of plan and method: first as the sheet has them, then the alternatives that are wanted."""
+    plan, method, wanted = sheet.plan, sheet.method, offered or ("plans",) * (offered is None)
+    forces = ",".join(word for word in plan.split(",") if word not in MOTION_PLANS)
     plans = [plan, *(",".join(filter(None, (motion_plan, forces)))
                      for motion_plan in PLANS)] if "plans" in wanted else [plan]
     methods = [method, *METHODS] if "methods" in wanted else [method]

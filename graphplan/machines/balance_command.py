@@ -28,10 +28,11 @@ from graphplan.app.choices import (
     add_pencil,
     add_subject,
     count,
-    drawing_options,
     run_subject,
+    sheet_keys,
     text_of_scene,
 )
+from graphplan.app.drafting import with_sheet
 from graphplan.app.files import SHEETS
 from graphplan.app.subjects import Subject
 from graphplan.errors import Refused
@@ -44,6 +45,7 @@ from graphplan.machines.subjects import (
     balance_linkage,
     balance_rotor,
     refuse_options,
+    refuse_pencil,
 )
 
 PICTURES = {"paper": SHEETS}
@@ -82,19 +84,22 @@ def _linkage(text: str, options: argparse.Namespace, ending: str, messages: Mess
     """The linkage of a scene's text, balanced as the options have it."""
     from graphplan.mechanism.written_scene import parse
 
-    scene = parse(text, options.scene, by_drive=True)
+    scene = with_sheet(parse(text, options.scene, by_drive=True), sheet_keys(options))
     if scene.governor:
         _refuse_options(options, "a governor", OF_LINKAGES)
-        return balance_governor(scene, drawing_options(options), options.positions)
-    subject = balance_linkage(scene, drawing_options(options), options.positions,
-                              options.counterweights, _radii(options.radius), options.keep, options.share)
+        return balance_governor(scene, options.positions)
+    refuse_pencil(options.pencil)
+    subject = balance_linkage(scene, options.positions, options.counterweights, _radii(options.radius), options.keep,
+                              options.share)
     return replace(subject, remarks=()) if ending in SCENE else subject
 
 
 def _rotor(text: str, options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
     """The rotor of a task's text, balanced."""
+    from graphplan.machines.rotors.rotor import parse
+
     _refuse_options(options, "a rotor", ("positions", *OF_LINKAGES))
-    return balance_rotor(text, options.scene, drawing_options(options))
+    return balance_rotor(with_sheet(parse(text, options.scene), sheet_keys(options)))
 
 
 def _refuse_options(options: argparse.Namespace, subject: str, names: Iterable[str]) -> None:

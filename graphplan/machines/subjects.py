@@ -10,14 +10,15 @@ from fractions import Fraction
 from functools import cache, partial
 from typing import TYPE_CHECKING, Unpack
 
-from graphplan.app.drafting import Options, SheetKeywords, options_of, pencil, with_presentation
+from graphplan.app.drafting import SheetKeywords, pencil, translate_title, with_sheet
 from graphplan.app.files import SHEETS
-from graphplan.app.subjects import JSON, Subject, driven_on_sheet
+from graphplan.app.subjects import JSON, Subject, driven_scene
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
     from graphplan.design.hand import Pencil
     from graphplan.machines.flywheel.result import FlywheelResult
+    from graphplan.machines.rotors.rotor import RotorTask
     from graphplan.mechanism.model import Scene
     from graphplan.sheet.panels import PanelSheet
 
@@ -48,14 +49,14 @@ def flywheel(scene: Scene | str | os.PathLike[str], *, speed: Amount | None = No
     Source: F. Wittenbauer, Graphische Dynamik (1923).
     """
     wish: dict[str, Amount | None] = {"speed": speed, "inertia": inertia, "unevenness": unevenness}
-    return find_flywheel(scene, {name: amount for name, amount in wish.items() if amount is not None},
-                         options_of(options), closes, positions, task, by)
+    return find_flywheel(with_sheet(driven_scene(scene), options),
+                         {name: amount for name, amount in wish.items() if amount is not None}, closes, positions, task,
+                         by)
 
 
-def find_flywheel(source: Scene | str | os.PathLike[str], wish: Mapping[str, Amount], options: Options,
-                  closes: str | None = None, positions: int | None = None, task: bool = False,
-                  by: str = "wittenbauer") -> Subject:
-    """Size a flywheel, with the options by name."""
+def find_flywheel(driven: Scene, wish: Mapping[str, Amount], closes: str | None = None, positions: int | None = None,
+                  task: bool = False, by: str = "wittenbauer") -> Subject:
+    """Size the flywheel of a driven scene, with the amounts that are wished by name."""
     from graphplan.machines.flywheel.numbers import numbers, table
     from graphplan.machines.flywheel.result import flywheel as find
     from graphplan.machines.motion.check import check_flywheel
@@ -63,7 +64,7 @@ def find_flywheel(source: Scene | str | os.PathLike[str], wish: Mapping[str, Amo
     if by not in CONSTRUCTIONS:
         raise Refused(f"--by {by}", "there is no such construction", f"one of {', '.join(CONSTRUCTIONS)}")
     amounts = {name: _amount(name, amount) for name, amount in wish.items()}
-    scene = driven_on_sheet(source, options, partial(_with_wish, amounts=amounts, closes=closes))
+    scene = translate_title(_with_wish(driven, amounts, closes))
     result = find(scene, positions)
     result = replace(result, check=check_flywheel(result))
 
@@ -72,7 +73,7 @@ def find_flywheel(source: Scene | str | os.PathLike[str], wish: Mapping[str, Amo
 
         return flywheel_sheet(paper, result, task, by)
 
-    return Subject(sheet, lambda: numbers(result, pencil_errors(result, pencil(options, scene))[0]), scene.sheet.paper,
+    return Subject(sheet, lambda: numbers(result, pencil_errors(result, pencil(scene))[0]), scene.sheet.paper,
                    files={".csv": partial(table, result)}, remarks=[f"{scene.name}: {note}" for note in result.notes],
                    name="flywheel", endings=ENDINGS)
 
@@ -124,12 +125,12 @@ def motion(scene: Scene | str | os.PathLike[str], *, speed: float | None = None,
     or length/s; 0: from rest), over which `travel` it is followed (degrees or lengths; without it one turn) in how many
     `positions`; `steady` is the cycle that repeats itself. Fails with `Refused` where the motion cannot be followed.
     """
-    return find_motion(scene, speed, travel, positions, steady, options_of(options))
+    return find_motion(with_sheet(driven_scene(scene), options), speed, travel, positions, steady)
 
 
-def find_motion(source: Scene | str | os.PathLike[str], speed: float | None, travel: float | None,
-                positions: int | None, steady: bool, options: Options) -> Subject:
-    """Follow the true motion, with the options in one record."""
+def find_motion(driven: Scene, speed: float | None, travel: float | None, positions: int | None,
+                steady: bool) -> Subject:
+    """Follow the true motion of a driven scene."""
     from graphplan.machines.motion.check import check_motion
     from graphplan.machines.motion.drawing import draw_motion
     from graphplan.machines.motion.runs import motion_of_scene
@@ -139,7 +140,7 @@ def find_motion(source: Scene | str | os.PathLike[str], speed: float | None, tra
         if value is not None and not math.isfinite(value):
             raise Refused(f"--{name}", f"{value:g}", "give a number")
     positions = positions or POSITIONS
-    scene = driven_on_sheet(source, options)
+    scene = translate_title(driven)
     result = motion_of_scene(scene, speed, travel, steady)
     drawing = draw_motion(result.motion, min(positions, MAX_DRAWN))
     check, remarks = check_motion(result, drawing), list[str]()
@@ -168,22 +169,22 @@ def balance(task: Scene | str | os.PathLike[str], *, positions: int | None = Non
     links stand (`radii`), links that `keep` theirs, and which `share` of the reciprocating mass is balanced. Numbers
     are in kg m, N and N m. Fails with `Refused` where it cannot be balanced so.
     """
-    from graphplan.app.subjects import driven_scene
+    from graphplan.machines.rotors.rotor import parse
     from graphplan.mechanism.model import Scene
     from graphplan.mechanism.scene import source_text, tables_of
 
-    chosen = options_of(options)
     if not isinstance(task, Scene):
         text = source_text(os.fspath(task), os.fspath(task))
         if "rotor" in tables_of(text, os.fspath(task)):
             refuse_options("a rotor", positions=positions, counterweights=counterweights, radii=radii, keep=keep,
                            share=share)
-            return balance_rotor(text, os.fspath(task), chosen)
-    scene = driven_scene(task)
+            return balance_rotor(with_sheet(parse(text, os.fspath(task)), options))
+    scene = with_sheet(driven_scene(task), options)
     if scene.governor:
         refuse_options("a governor", counterweights=counterweights, radii=radii, keep=keep, share=share)
-        return balance_governor(scene, chosen, positions)
-    return balance_linkage(scene, chosen, positions, counterweights, radii or {}, keep, share)
+        return balance_governor(scene, positions)
+    refuse_pencil(options.get("pencil"))
+    return balance_linkage(scene, positions, counterweights, radii or {}, keep, share)
 
 
 def refuse_options(subject: str, **options: object) -> None:
@@ -193,20 +194,22 @@ def refuse_options(subject: str, **options: object) -> None:
             raise Refused(name, f"it does not apply to {subject}", "leave it out")
 
 
-def balance_linkage(source: Scene | str | os.PathLike[str], options: Options, positions: int | None = None,
-                    counterweights: str = "", radii: Mapping[str, float] | None = None, keep: Sequence[str] = (),
+def refuse_pencil(pencil: str | None) -> None:
+    """Fail with `Refused` where a pencil is given for what is not drawn."""
+    if pencil:
+        raise Refused("--pencil", "a linkage is computed, not drawn", "leave it out")
+
+
+def balance_linkage(scene: Scene, positions: int | None = None, counterweights: str = "",
+                    radii: Mapping[str, float] | None = None, keep: Sequence[str] = (),
                     share: float | None = None) -> Subject:
     """A linkage, balanced."""
-    from graphplan.app.subjects import driven_scene
     from graphplan.machines.linkages.check import balancing, check_added_dyads
     from graphplan.machines.linkages.sheet import balance_sheet, numbers, table
 
     if share is not None and (counterweights != "share" or not 0 <= share <= 1):
         raise Refused(f"--share {share:g}", "not a fraction of the reciprocating mass", "give 0 to 1, with "
                       "--counterweights share")
-    scene = with_presentation(driven_scene(source), options)
-    if options.pencil:
-        raise Refused("--pencil", "a linkage is computed, not drawn", "leave it out")
     result = cache(partial(balancing, scene, positions or BALANCED_POSITIONS, counterweights, keep, dict(radii or {}),
                            SHARE if share is None else share))
 
@@ -216,13 +219,12 @@ def balance_linkage(source: Scene | str | os.PathLike[str], options: Options, po
         name="balance", endings=(*ENDINGS[:2], ".toml", *SHEETS))
 
 
-def balance_governor(source: Scene, options: Options, positions: int | None = None) -> Subject:
+def balance_governor(scene: Scene, positions: int | None = None) -> Subject:
     """The governor of a scene, in so many positions of its range."""
     from graphplan.machines.governor.check import check_governor
     from graphplan.machines.governor.governor import draw_governor, find_governor
     from graphplan.machines.governor.sheet import governor_sheet, numbers, table
 
-    scene = with_presentation(source, options)
     result = find_governor(scene, positions or GOVERNOR_POSITIONS)
     drawing = draw_governor(result)
     check = check_governor(drawing)
@@ -230,17 +232,15 @@ def balance_governor(source: Scene, options: Options, positions: int | None = No
                    scene.sheet.paper, files={".csv": partial(table, result)}, name="governor", endings=ENDINGS)
 
 
-def balance_rotor(text: str, name: str, options: Options) -> Subject:
-    """The rotor of a task's text, balanced."""
+def balance_rotor(task: RotorTask) -> Subject:
+    """The rotor of a task, balanced."""
     from graphplan.machines.rotors.check import check_rotor
-    from graphplan.machines.rotors.rotor import parse
     from graphplan.machines.rotors.rotor_balance import balance_rotor as find
     from graphplan.machines.rotors.sheet import PAPERS, RotorOnPaper, numbers, table
 
-    result = find(with_presentation(parse(text, name), options))
-    check, paper = check_rotor(result), result.task.sheet.paper
-
-    on_paper = partial(RotorOnPaper, balanced=result, check=check, pencil=pencil(options, result.task))
+    result = find(task)
+    check, paper = check_rotor(result), task.sheet.paper
+    on_paper = partial(RotorOnPaper, balanced=result, check=check, pencil=pencil(task))
     return Subject(lambda name: on_paper(name).sheet, lambda: numbers(on_paper(paper or PAPERS[0])), paper,
                    PAPERS, {".csv": partial(table, result)},
-                   [f"{name}: {note}" for note in result.notes], name="rotor", endings=ENDINGS)
+                   [f"{task.name}: {note}" for note in result.notes], name="rotor", endings=ENDINGS)

@@ -19,8 +19,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from graphplan.app.drafting import NAMES as OPTIONS
-from graphplan.app.drafting import Options
 from graphplan.cycle.turn import follow
 from graphplan.design.hand import Pencil
 from graphplan.errors import GraphplanError, Refused
@@ -189,11 +187,12 @@ def key_rows(scene: Scene) -> Iterator[KeyRow]:
 
 @dataclass(frozen=True)
 class Desk:
-    """Desk where drawings are judged by the construction on its sheet."""
+    """Desk where drawings are judged by the construction on its sheet; a form that is not among the `keys` of [sheet]
+    that are asked for beside the scene may be another."""
 
     on_sheet: Drafted
     weights: Weights
-    options: Options
+    keys: Mapping[str, Any]
     words: Mapping[str, TeacherWord] = field(default_factory=dict)  # of the teacher, by the file's name
     other_pose: str = ""  # that of a sheet of a student's own, as `--at` takes it
     as_drawn: Composition | None = None  # a sheet of graphplan's own of another form than asked: its plans lie so
@@ -242,18 +241,18 @@ class Desk:
 
         task = self.on_sheet.drawing.scene
         in_same_pose = pose == pose_text(task)
-        forms, scales = ({key: value for key in keys if (value := getattr(source, key)) and value != getattr(
-            scene.sheet, key)} for keys, source in ((FORM_KEYS, self.options), (SCALE_KEYS, task.sheet)))
-        if ((in_same_pose and (scales or _presentation(task, self.options) == self._sheet_beside_design(scene)))
+        forms, scales = ({key: value for key in keys if (value := getattr(task.sheet, key)) and value != getattr(
+            scene.sheet, key)} for keys in (filter(self.keys.get, FORM_KEYS), SCALE_KEYS))
+        if ((in_same_pose and (scales or task.sheet == self._sheet_beside_design(scene)))
                 or _mechanism(scene) != self._mechanism_as_written):
             return None
         posed = at(scene, parse_pose(pose)) if pose else scene
         posed = replace(posed, sheet=replace(posed.sheet, **scales))
-        as_drawn = drafted = on_paper(posed, Options())
+        as_drawn = drafted = on_paper(posed)
         if in_same_pose and _mechanism(drafted.drawing.scene) != _mechanism(task):
             return None  # what is drawn may be less than is written
         if forms:
-            drafted = on_paper(replace(posed, sheet=replace(posed.sheet, **forms)), Options())
+            drafted = on_paper(replace(posed, sheet=replace(posed.sheet, **forms)))
         plans = replace(drafted.composition.plans, tongue=self.on_sheet.composition.plans.tongue)
         on_sheet = replace(drafted, pencil=self.on_sheet.pencil, composition=replace(drafted.composition, plans=plans))
         other_pose = "" if in_same_pose else pose or GIVEN_POSE
@@ -266,7 +265,7 @@ class Desk:
         chosen = {"time_scale": design.kappa, "force_scale": design.phi, "ways": design.ways,
                   "force_way": design.group_way, "paper": self.on_sheet.paper}
         same = {key: getattr(task, key) for key, value in chosen.items() if getattr(scene.sheet, key) == value}
-        return replace(_presentation(scene, Options()), **same)
+        return replace(scene.sheet, **same)
 
     @cached_property
     def _mechanism_as_written(self) -> Scene:
@@ -302,8 +301,8 @@ class Desk:
         """The plans that marks may name: if no plan is asked for, those of every way to draw motions."""
         from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, VELOCITY_PLAN
 
-        named_plan = self.options.method or self.options.plan
-        motion_plans = () if named_plan else (N_PLAN, VELOCITY_PLAN, ACCELERATION_PLAN)
+        are_asked = self.keys.get("method") or self.keys.get("plan")
+        motion_plans = () if are_asked else (N_PLAN, VELOCITY_PLAN, ACCELERATION_PLAN)
         return list(dict.fromkeys([*self.on_sheet.composition.views, *motion_plans]))
 
     @property
@@ -359,23 +358,14 @@ class Desk:
         from graphplan.marking.judge.numbers import with_cycle_numbers
 
         work = self.on_sheet.drawing, self.on_sheet.composition, submission, self.on_sheet.pencil
-        judgement_of_pose = (judge(*work) if self.options.method
-                             else judge_any_method(*work, self.options.plan))
+        judgement_of_pose = (judge(*work) if self.keys.get("method")
+                             else judge_any_method(*work, self.keys.get("plan") or ""))
         return with_cycle_numbers(judgement_of_pose, self._cycle.expected_result)
-
-
-def _presentation(scene: Scene, options: Options) -> Presentation:
-    """Presentation of a scene's sheet."""
-    keys = {name: value for name in OPTIONS if (value := getattr(options, name))}
-    if options.pencil:
-        keys["pencil"] = options.pencil.text
-    return replace(scene.sheet, **keys | {name: getattr(scene.sheet, name) for name in ("curves", "centrodes")})
 
 
 def _mechanism(scene: Scene) -> Scene:
     """A scene without what its sheet and its title say."""
-    loads = replace(scene.loads, rounds=0) if scene.loads else None
-    return replace(scene, title="", source="", name="", sheet=Presentation(), vary={}, loads=loads, assembly=None)
+    return replace(scene, title="", source="", name="", sheet=Presentation(), vary={}, assembly=None)
 
 
 def printable(name: str) -> str:

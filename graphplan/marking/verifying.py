@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
-from graphplan.app.drafting import Keywords, Options, on_paper, options_of, pencil, with_rounds
+from graphplan.app.drafting import Keywords, on_paper, pencil, with_sheet
 from graphplan.app.files import STANDARD, as_json, kind, page_names, write_all
 from graphplan.errors import GraphplanError, Refused
 from graphplan.marking.classroom.class_files import Listener, ignore
@@ -22,6 +22,7 @@ from graphplan.phrases import Said, arrange, digits, said, unit
 
 if TYPE_CHECKING:
     from graphplan.app.subjects import FoundMechanism
+    from graphplan.machines.rotors.rotor import RotorTask
     from graphplan.machines.rotors.rotor_balance import Answer
     from graphplan.machines.rotors.sheet import RotorOnPaper
     from graphplan.marking.classroom.results import MarkedDrawing
@@ -207,34 +208,35 @@ def verify(scene: Scene | FoundMechanism | str | os.PathLike[str], drawing: str 
     Fails with `Refused` where the drawing cannot be read.
     """
     from graphplan import leaves
+    from graphplan.machines.rotors import rotor
     from graphplan.marking.judge.score import parse_weights
     from graphplan.mechanism.scene import source_text, tables_of
     from graphplan.mechanism.written_scene import load
 
-    chosen, path = options_of(options), Path(drawing)
+    path = Path(drawing)
     source: Scene | FoundMechanism
     if isinstance(scene, str | os.PathLike):
         name = os.fspath(scene)
         text = source_text(name, name)
         tables = tables_of(text, name)
         if "rotor" in tables:
-            return judge_rotor(text, name, path, chosen)
+            return judge_rotor(with_sheet(rotor.parse(text, name), options), path)
         kind = leaves.kind_of_task(tables)
-        source = leaves.module(kind.finder).find(text, name, chosen) if kind and kind.finder else load(name)
+        source = leaves.module(kind.finder).find(text, name) if kind and kind.finder else load(name)
     else:
         source = scene
-    desk = desk_for(source, parse_weights(weights), chosen, words_on_files(path, score, note))
+    desk = desk_for(with_sheet(source, options), parse_weights(weights), options, words_on_files(path, score, note))
     return (judge_folder if path.is_dir() else judge_file)(desk, path, Listeners())
 
 
-def desk_for(source: Scene | FoundMechanism, weights: Weights, options: Options, words: Mapping[str, TeacherWord]
+def desk_for(source: Scene | FoundMechanism, weights: Weights, keys: Mapping[str, Any], words: Mapping[str, TeacherWord]
              ) -> Desk:
-    """The desk on which drawings of a scene, or of a task of synthesis, are judged."""
+    """The desk on which drawings of a scene, or of a task of synthesis, are judged, with keys of [sheet] beside it."""
     from graphplan.mechanism.model import Scene
 
     if isinstance(source, Scene):
-        return Desk(on_paper(with_rounds(source, options), options), weights, options, words)
-    desk: Desk = source.desk(weights, options, words)
+        return Desk(on_paper(source), weights, keys, words)
+    desk: Desk = source.desk(weights, keys, words)
     return desk
 
 
@@ -363,18 +365,16 @@ def _require_drawing(path: Path) -> None:
         raise Refused(f"{path}", "the target of this link does not exist", "the drawing itself")
 
 
-def judge_rotor(text: str, name: str, path: Path, options: Options) -> Findings:
+def judge_rotor(task: RotorTask, path: Path) -> Findings:
     """The answers to the task of a rotor in a table, or in each of a folder, judged."""
     from graphplan.machines.rotors.check import check_rotor
-    from graphplan.machines.rotors.rotor import parse
     from graphplan.machines.rotors.rotor_balance import balance_rotor
     from graphplan.machines.rotors.sheet import PAPERS, RotorOnPaper
 
-    balance = balance_rotor(parse(text, name))
-    paper = balance.task.sheet.paper or PAPERS[0]
-    sheet = RotorOnPaper(paper, balance, check_rotor(balance), pencil(options, balance.task))
-    return _judge_tables(path, [_true_numbers(sheet, answer) for answer in balance.answers],
-                         options.language or balance.task.sheet.language)
+    balance = balance_rotor(task)
+    paper = task.sheet.paper or PAPERS[0]
+    sheet = RotorOnPaper(paper, balance, check_rotor(balance), pencil(task))
+    return _judge_tables(path, [_true_numbers(sheet, answer) for answer in balance.answers], task.sheet.language)
 
 
 def _judge_tables(path: Path, choices: Sequence[Sequence[TrueNumber]], language: str) -> Findings:

@@ -119,17 +119,21 @@ class Design:
 OPEN = Design()
 
 
+def merged_plans(plan: str, others: str) -> str:
+    """Plans, with those of `others` for the motion, or for the forces, where they name none."""
+    words = plan.split(",") if plan else []
+    of_same = {word for kind in (MOTION_PLANS, FORCE_PLANS) if {*kind} & {*words} for word in kind}
+    return ",".join([*words, *(word for word in others.split(",") if word and word not in of_same)])
+
+
 def complete_wishes(scene: Scene, wishes: Design) -> Design:
     """Complete the wishes for a drawing with the keys of the scene's sheet; fails with `Refused` if a plan, a method or
     a form of inertia is unknown."""
     sheet = scene.sheet
-    words = wishes.words
-    for kind in (FORCE_PLANS, MOTION_PLANS):
-        if not {*kind} & {*words}:
-            words += [word for word in sheet.plan.split(",") if word in kind]
-    inertia = wishes.inertia or INERTIA[0]
+    plan, inertia = merged_plans(wishes.plan, sheet.plan), wishes.inertia or INERTIA[0]
     method = wishes.method or sheet.method
-    for what, name, choices in (*(("plan", word, PLAN_STYLES) for word in words), ("inertia", inertia, INERTIA)):
+    for what, name, choices in (*(("plan", word, PLAN_STYLES) for word in Design(plan).words),
+                                ("inertia", inertia, INERTIA)):
         if name not in choices:
             unknown = "unknown method of inertia" if what == "inertia" else "unknown plan"
             raise Refused(f"{what} {name}", unknown, f"choose one of {', '.join(choices)}")
@@ -138,6 +142,6 @@ def complete_wishes(scene: Scene, wishes: Design) -> Design:
     velocities, _, accelerations = method.partition(",")
     method = velocities if accelerations == velocities else method
     form = wishes.form or OF_PATHS.get(method, "")
-    return replace(wishes, plan=",".join(words), method=method, form=form, inertia=inertia,
+    return replace(wishes, plan=plan, method=method, form=form, inertia=inertia,
                    ways=wishes.ways or sheet.ways, group_way=wishes.group_way or sheet.force_way,
                    kappa=wishes.kappa or sheet.kappa, phi=wishes.phi or sheet.phi)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -32,8 +31,8 @@ def png(drawing: WorkingDrawing, paper: str | None = None, language: str | None 
 
 def _first_file(drawing: WorkingDrawing, name: str, paper: str | None, language: str | None,
                 dpi: int | None = None) -> Any:
+    from graphplan.app.drafting import with_sheet
     from graphplan.app.pages import SheetExcerpt, sheet_files
 
-    options = drawing.options
-    options = replace(options, paper=paper or options.paper, language=language or options.language)
-    return sheet_files(drawing.given_scene or drawing.scene, None, name, options, SheetExcerpt(dpi=dpi)).contents[0][1]
+    scene = with_sheet(drawing.given_scene or drawing.scene, {"paper": paper, "language": language})
+    return sheet_files(scene, None, name, SheetExcerpt(dpi=dpi)).contents[0][1]

@@ -25,7 +25,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.app.choices import Messages, add_subject, count, drawing_options, read_task, run_subject
+from graphplan.app.choices import Messages, add_subject, count, read_task, run_subject
 from graphplan.app.subjects import Subject
 from graphplan.synthesis.subject import SYNTHESIS_ENDINGS, find_subject
 
@@ -52,4 +52,4 @@ def _synthesis(options: argparse.Namespace, ending: str, messages: Messages) -> 
 
     task = read_task(options, load, parse)
     messages.progress("construction")
-    return find_subject(task, drawing_options(options), options.solution or 1, options.unsolved)
+    return find_subject(task, options.solution or 1, options.unsolved)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from graphplan.app.drafting import Options, languages_of, options_of, pencil, with_presentation
+from graphplan.app.drafting import languages_of, pencil, with_sheet
 from graphplan.app.files import PARTS, handout_ending, write
 from graphplan.app.subjects import Subject
 from graphplan.errors import Refused
@@ -39,64 +39,62 @@ class SynthesisResults(Subject):
         """The result and its drawing."""
         return self.drawn.synthesis
 
-    def on_paper(self, options: Options) -> Drafted:
+    def with_sheet(self, keys: Mapping[str, Any]) -> SynthesisResults:
+        """What was found, on sheets with other keys of [sheet]."""
+        task = with_sheet(self.synthesis.task, keys)
+        return replace(self, drawn=replace(self.drawn, synthesis=replace(self.synthesis, task=task)))
+
+    def on_paper(self) -> Drafted:
         """The construction on its sheet, as a scene's is drafted."""
         from graphplan.accuracy.drafted import Drafted
 
         composition = self.drawn.on_paper.composition
-        return Drafted(composition.plans.drawing, pencil(options, self.synthesis.task), (), False, composition)
+        return Drafted(composition.plans.drawing, pencil(self.synthesis.task), (), False, composition)
 
     def handout(self, path: str, only: str | None = None, **options: Any) -> None:
         """Write a handout, as `gp.handout` does: a .pdf with the task, its guided version and the solution in true
         size, or `only` one of them; or a .html, the live page with the steps in front."""
-        self.save_handout(os.fspath(path), options_of(options), only)
+        self.with_sheet(options).save_handout(os.fspath(path), only)
 
-    def save_handout(self, path: str, options: Options, only: str | None = None,
-                     offered: Collection[str] | None = None) -> None:
-        """Write a handout, with the options in one record."""
+    def save_handout(self, path: str, only: str | None = None, offered: Collection[str] | None = None) -> None:
+        """Write a handout, with what the page offers."""
         if handout_ending(path, only) == ".html":
-            write(self.live_page(options, offered), path)
+            write(self.live_page(offered), path)
             return
-        handout = replace(self.drawn, synthesis=self._with_options(options))
-        sheets = [sheet for part in PARTS if only in (None, part) for sheet in handout.pages_of(part)]
+        sheets = [sheet for part in PARTS if only in (None, part) for sheet in self.drawn.pages_of(part)]
         write(back_end("pdf")(sheets), path)
 
     def live(self, path: str, **options: Any) -> None:
         """Write the live page of the task, as `gp.live` does: what is given is dragged or typed, and the linkage, its
         construction, its numbers and its defects follow."""
-        write(self.live_page(options_of(options)), os.fspath(path))
+        write(self.with_sheet(options).live_page(), os.fspath(path))
 
-    def live_page(self, options: Options, offered: Collection[str] | None = None) -> str:
+    def live_page(self, offered: Collection[str] | None = None) -> str:
         """The page, opened at the first step."""
         from graphplan.synthesis.live_page import TaskLivePage
 
-        synthesis = self._with_options(options)
-        languages = languages_of(synthesis.task.sheet.language, offered, LANGUAGES)
-        return TaskLivePage(synthesis, languages).html()
+        languages = languages_of(self.synthesis.task.sheet.language, offered, LANGUAGES)
+        return TaskLivePage(self.synthesis, languages).html()
 
-    def _with_options(self, options: Options) -> Synthesis:
-        """The result, on sheets with these options."""
-        return replace(self.synthesis, task=with_presentation(self.synthesis.task, options))
-
-    def desk(self, weights: Weights, options: Options, words: Mapping[str, TeacherWord]) -> TaskDesk:
+    def desk(self, weights: Weights, keys: Mapping[str, Any], words: Mapping[str, TeacherWord]) -> TaskDesk:
         """The desk on which drawings of the task are judged."""
         from graphplan.synthesis.handout import TaskDesk
 
-        return TaskDesk(self.on_paper(options), weights, options, words, handout=self.drawn)
+        return TaskDesk(self.on_paper(), weights, keys, words, handout=self.drawn)
 
     def variants(self, folder: str, n: int, seed: int = 1, **options: Any) -> None:
         """Make so many tasks of a class in a new folder, as `gp.variants` does, by the table [vary] of the task."""
-        self.write_variants(os.fspath(folder), options_of(options), ClassRequest(n, seed=seed))
+        self.write_variants(os.fspath(folder), ClassRequest(n, seed=seed, keys=options))
 
-    def write_variants(self, folder: str, options: Options, request: ClassRequest) -> None:
-        """Write the variants of a class, with options and request in records of their own."""
+    def write_variants(self, folder: str, request: ClassRequest) -> None:
+        """Write the variants of a class, as is asked for."""
         if not self.synthesis.task.vary:
             raise Refused(f"{self.synthesis.task.name}: vary", "the task does not say what varies",
                           'a table [vary], such as "stroke.ratio" = [1.1, 1.2, 1.3]')
-        write_class(lambda: _class_of_task(self, options), folder, options, request)
+        write_class(lambda: _class_of_task(self, request.keys), folder, request)
 
 
-def _class_of_task(results: SynthesisResults, options: Options) -> ClassWork:
+def _class_of_task(results: SynthesisResults, keys: Mapping[str, Any]) -> ClassWork:
     """The variants of a task; a scene that it names by a file they name by its whole path until they are written."""
     from graphplan.mechanism.written_scene import with_value_in_text
     from graphplan.synthesis.class_work import TaskDesign, key_pages, print_task
@@ -107,19 +105,19 @@ def _class_of_task(results: SynthesisResults, options: Options) -> ClassWork:
     if task.kind in ("cognates", "dwell") and os.path.exists(scene := scene_of(task)):
         scene_key, scene_file = f"{task.kind}.scene", os.path.abspath(scene)
         task = replace(task, text=with_value_in_text(task.text, scene_key, scene_file, task.name))
-    draw = partial(draw_handout, options, results.synthesis.chosen + 1)
+    draw = partial(draw_handout, keys, results.synthesis.chosen + 1)
     handout = draw(task)
     return ClassWork(partial(TaskDesign, handout, draw), partial(print_task, draw=draw),
                      partial(key_pages, handout), handout.on_paper.page.scene.title, scene_key, scene_file)
 
 
-def draw_handout(options: Options, solution: int, task: SynthesisTask) -> SynthesisHandout:
-    """A task with what is found for it on its sheets, as the options say; fails as `synthesize` does."""
+def draw_handout(keys: Mapping[str, Any], solution: int, task: SynthesisTask) -> SynthesisHandout:
+    """A task with what is found for it on its sheets, with these keys of [sheet]; fails as `synthesize` does."""
     from graphplan.synthesis.check import check_synthesis
     from graphplan.synthesis.find import find_mechanism
     from graphplan.synthesis.handout import SynthesisHandout
 
-    synthesis = find_mechanism(with_presentation(task, options), solution)
+    synthesis = find_mechanism(with_sheet(task, keys), solution)
     return SynthesisHandout(synthesis, check_synthesis(synthesis), Subject.papers)
 
 
@@ -134,21 +132,21 @@ def synthesize(task: str | os.PathLike[str], *, solution: int = 1, unsolved: boo
     """
     from graphplan.synthesis.task import load
 
-    return find_subject(load(os.fspath(task)), options_of(options), solution, unsolved)
+    return find_subject(with_sheet(load(os.fspath(task)), options), solution, unsolved)
 
 
-def find(text: str, name: str, options: Options) -> SynthesisResults:
+def find(text: str, name: str) -> SynthesisResults:
     """The mechanism found for the text of a task; fails as `synthesize` does."""
     from graphplan.synthesis.task import parse
 
-    return find_subject(parse(text, name), options)
+    return find_subject(parse(text, name))
 
 
-def find_subject(task: SynthesisTask, options: Options, solution: int = 1, unsolved: bool = False) -> SynthesisResults:
+def find_subject(task: SynthesisTask, solution: int = 1, unsolved: bool = False) -> SynthesisResults:
     """Solve a task that is read."""
     from graphplan.synthesis.exports import numbers, scene_text
 
-    handout = draw_handout(options, solution, task)
+    handout = draw_handout({}, solution, task)
     synthesis, check = handout.synthesis, handout.check
 
     def sheet(paper: str) -> PanelSheet:

@@ -18,6 +18,6 @@ def handed_out(name: str, *changes: tuple[str, object]) -> tuple[list[InkedSheet
     scene = gp.load(name)
     for path, value in changes:
         scene = scene.replace(path, value)
-    composition = drafting.on_paper(scene, drafting.Options()).composition
+    composition = drafting.on_paper(scene).composition
     return tuple([InkedSheet.of(back_end("svg")(page)) for page in part(composition)]
                  for part in (task, guided_task, solution))

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.app.choices import Messages, add_choices, add_sheet, drawing_options, load_scene
+from graphplan.app.choices import Messages, add_choices, add_sheet, load_scene
 from graphplan.app.files import kind
 from graphplan.machines.errors.subject import ERROR_ENDINGS, find_errors
 
@@ -28,7 +28,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     kind(options.output, ERROR_ENDINGS, "errors")
-    errors = find_errors(load_scene(options), drawing_options(options))
+    errors = find_errors(load_scene(options))
     Messages(options.quiet).progress("")
     errors.save(options.output)
     return 0

@@ -31,7 +31,6 @@ from graphplan.mechanism.numbers import Pair, dot, minus, quarter_turn
 from graphplan.mechanism.pairs.drives import Drive, SlidingDrive, TurningDrive
 from graphplan.mechanism.pairs.pair import KinematicPair
 from graphplan.methods import kinds
-from graphplan.methods.design import Design
 
 DEGREE = math.pi / 180
 ONE, NONE = Fraction(1), Fraction(0)
@@ -209,17 +208,16 @@ class PositionErrors:
                 "check": {"construction": constructed, "differences": self.differences}}
 
 
-def position_errors(scene: Scene, wishes: Design) -> PositionErrors:
+def position_errors(scene: Scene) -> PositionErrors:
     """The errors of the positions that a scene asks for, its dimensions being off by their tolerances.
 
-    The `wishes` of a drawing are as for `report`. Fails with `Refused` where nothing has a tolerance, with
-    `SingularPose` where a dimension can move the mechanism no way, and with `Disagreement` where the differences of the
-    closure tell another coefficient.
+    Fails with `Refused` where nothing has a tolerance, with `SingularPose` where a dimension can move the mechanism no
+    way, and with `Disagreement` where the differences of the closure tell another coefficient.
     """
     positions, gaps, parts = asked_positions(scene), list[float](), list[PartialError]()
     for named in dimensions(scene):
         moved = transform_mechanism(scene, named, positions)
-        result = report(moved, wishes)
+        result = report(moved)
         coefficients = {position.name: _coefficient(moved, position, result) for position in positions}
         parts.append(PartialError(named, float(scene.tolerances[named.name]), coefficients, result))
         for position in positions:

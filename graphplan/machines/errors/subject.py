@@ -9,12 +9,11 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from graphplan.accuracy.drafted import draft
-from graphplan.app.drafting import Options, on_sheet, options_of, pencil
+from graphplan.app.drafting import pencil, translate_title, with_sheet
 from graphplan.app.files import SHEETS, as_json, kind, write, write_sheets
 from graphplan.app.subjects import JSON
 from graphplan.design.hand import Pencil
 from graphplan.machines.errors.errors import DrivenPosition, PartialError, PositionErrors
-from graphplan.methods.design import Design
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.layout.layout import pages
 from graphplan.sheet.plates.display import Sheet
@@ -68,10 +67,9 @@ ERROR_ENDINGS = (JSON, *SHEETS)
 
 @dataclass(frozen=True, repr=False)
 class ErrorResults:
-    """The errors of a scene's positions, checked, and how their sheets look."""
+    """The errors of a scene's positions, checked."""
 
     errors: PositionErrors
-    options: Options
 
     def json(self) -> dict[str, Any]:
         """The JSON of `graphplan errors`."""
@@ -84,7 +82,7 @@ class ErrorResults:
         path = None if path is None else os.fspath(path)
         ending = kind(path, ERROR_ENDINGS, "errors")
         if ending in SHEETS:
-            sheets = error_sheets(self.errors, pencil(self.options, self.errors.scene))
+            sheets = error_sheets(self.errors, pencil(self.errors.scene))
             write_sheets(sheets, path, ending[1:], dpi, suffix="")
         else:
             write(as_json(self.errors.data), path)
@@ -107,13 +105,11 @@ def position_errors(scene: Scene | str | os.PathLike[str], **options: Any) -> Er
     from graphplan.mechanism.model import Scene
     from graphplan.mechanism.written_scene import load
 
-    chosen = options_of(options)
-    return find_errors(scene if isinstance(scene, Scene) else load(scene), chosen)
+    return find_errors(with_sheet(scene if isinstance(scene, Scene) else load(scene), options))
 
 
-def find_errors(scene: Scene, options: Options) -> ErrorResults:
-    """Compute position errors, with the options in one record."""
+def find_errors(scene: Scene) -> ErrorResults:
+    """Compute the position errors of a scene."""
     from graphplan.machines.errors.errors import position_errors as find
 
-    placed = on_sheet(scene, options)
-    return ErrorResults(find(placed, Design(plan=options.plan, method=options.method)), options)
+    return ErrorResults(find(translate_title(scene)))

@@ -18,7 +18,7 @@ from __future__ import annotations
 import argparse
 from fractions import Fraction
 
-from graphplan.app.choices import Messages, add_subject, count, drawing_options, load_driven, run_subject
+from graphplan.app.choices import Messages, add_subject, count, load_driven, run_subject
 from graphplan.app.files import SHEETS
 from graphplan.app.subjects import Subject
 from graphplan.errors import Refused
@@ -51,7 +51,7 @@ def _flywheel(options: argparse.Namespace, ending: str, messages: Messages) -> S
     wish = {name: _amount(name, text) for name in AMOUNTS if (text := getattr(options, name)) is not None}
     scene = load_driven(options)
     messages.progress("reduction and energy")
-    return find_flywheel(scene, wish, drawing_options(options), positions=options.positions,
+    return find_flywheel(scene, wish, positions=options.positions,
                          task=options.task and ending in SHEETS, by=options.by)
 
 

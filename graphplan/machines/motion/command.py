@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.app.choices import Messages, add_subject, count, drawing_options, load_driven, run_subject
+from graphplan.app.choices import Messages, add_subject, count, load_driven, run_subject
 from graphplan.app.files import SHEETS
 from graphplan.app.subjects import Subject
 from graphplan.machines.subjects import ENDINGS, POSITIONS, find_motion
@@ -44,5 +44,4 @@ def _motion(options: argparse.Namespace, ending: str, messages: Messages) -> Sub
     """The motion of the scene that is named."""
     scene = load_driven(options)
     messages.progress("motion")
-    return find_motion(scene, options.speed, options.travel, options.positions, options.steady,
-                       drawing_options(options))
+    return find_motion(scene, options.speed, options.travel, options.positions, options.steady)

@@ -10,11 +10,10 @@ import csv
 import json
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphplan.app.drafting import Options
 from graphplan.app.files import new_folder, write_folder
 from graphplan.errors import Refused, printable
 from graphplan.marking.classroom import measures
@@ -229,7 +228,8 @@ def ignore(line: str) -> None:
 @dataclass(frozen=True)
 class ClassRequest:
     """A class: how many tasks (or the CSV of its `names`), by which `seed` their numbers are drawn, how many `spare`
-    tasks have no name, and how many processes work; `remark` is told what is worth knowing, `progress` how far it is.
+    tasks have no name, how many processes work, and the `keys` of [sheet] beside the scene; `remark` is told what is
+    worth knowing, `progress` how far it is.
     """
 
     count: int | None = None
@@ -237,6 +237,7 @@ class ClassRequest:
     seed: int = 1
     spare: int = 0
     jobs: int | None = None
+    keys: Mapping[str, Any] = field(default_factory=dict)
     remark: Listener = ignore
     progress: Listener = ignore
 
@@ -262,7 +263,7 @@ class ClassWork:
             COPIED_SCENE: Path(self.scene_file).read_text(encoding="utf-8")}
 
 
-def write_class(work: Callable[[], ClassWork], folder: str, options: Options, request: ClassRequest) -> None:
+def write_class(work: Callable[[], ClassWork], folder: str, request: ClassRequest) -> None:
     """Make the tasks of a class in a new folder; fails with `Refused` where hardly any that is drawn is good."""
     from graphplan.methods.executors import cores, worker_pool
 
@@ -274,7 +275,7 @@ def write_class(work: Callable[[], ClassWork], folder: str, options: Options, re
         design = class_work.design(shared_out)
         series = design.series(len(students), request.seed,
                                lambda done, of: request.progress(f"variants: {done}/{of}"))
-        files = _files(class_work, options, request, series.variants, students, shared_out)
+        files = _files(class_work, request, series.variants, students, shared_out)
         request.progress("")
     write_folder(files, folder)
     for line in series.lines:
@@ -304,7 +305,7 @@ def _students(request: ClassRequest) -> list[tuple[str, str]]:
     return [*students, *[("", "")] * (count_wanted - len(students) + request.spare)]
 
 
-def _files(class_work: ClassWork, options: Options, request: ClassRequest, variants: Sequence[ClassVariant],
+def _files(class_work: ClassWork, request: ClassRequest, variants: Sequence[ClassVariant],
            students: Sequence[tuple[str, str]], shared_out: SharedOut) -> dict[str, str | bytes]:
     """All that is written, by name."""
     from graphplan.marking.classroom.booklet import KEY_COLUMNS, Exercise, PrintedExercise
@@ -320,7 +321,7 @@ def _files(class_work: ClassWork, options: Options, request: ClassRequest, varia
                                 exercise.group))
         printouts.append(printout)
         request.progress(f"sheets: {len(printouts)}/{len(exercises)}")
-    registered = {name: str(getattr(options, name) or "") for name in REGISTERED_OPTIONS}
+    registered = {name: str(request.keys.get(name) or "") for name in REGISTERED_OPTIONS}
     register = ClassRegister(class_work.title, request.seed, registered, tuple(sheets))
     if twice := register.equal_codes:
         raise Refused(f"--seed {request.seed}", f"the corner marks of variants {twice[0]} and {twice[1]} are the same",

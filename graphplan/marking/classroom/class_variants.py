@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from functools import partial
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
-from graphplan.app.drafting import Keywords, Options, make_report, on_paper, on_sheet, options_of, with_rounds
+from graphplan.app.drafting import Keywords, make_report, on_paper, translate_title, with_sheet
 from graphplan.errors import Refused
 from graphplan.marking.classroom.class_files import ClassRequest, ClassWork, write_class
 from graphplan.mechanism.model import Scene
@@ -27,33 +28,33 @@ def variants(scene: Scene | FoundMechanism, folder: str | os.PathLike[str], n: i
     variant, booklet.pdf, key.pdf, key.csv and class.json.
     Fails with `Refused` where nothing varies, or the folder is there and not empty.
     """
-    request = ClassRequest(n, None if names is None else os.fspath(names), seed, spare, jobs)
-    write_variants(scene, os.fspath(folder), options_of(options), request)
+    request = ClassRequest(n, None if names is None else os.fspath(names), seed, spare, jobs, {**options})
+    write_variants(scene, os.fspath(folder), request)
 
 
-def write_variants(scene: Scene | FoundMechanism, folder: str, options: Options, request: ClassRequest) -> None:
-    """Write the variants of a class, with options and request in records of their own."""
+def write_variants(scene: Scene | FoundMechanism, folder: str, request: ClassRequest) -> None:
+    """Write the variants of a class, as is asked for."""
     if not isinstance(scene, Scene):
-        return scene.write_variants(folder, options, request)
+        return scene.write_variants(folder, request)
     if not scene.vary:
         raise Refused(f"{scene.name}: vary", "the scene does not say what varies",
                       'a table [vary], such as "drive.0.omega" = [8, 10, 12]')
-    write_class(partial(_class_of_scene, scene, options), folder, options, request)
+    write_class(partial(_class_of_scene, scene, request.keys), folder, request)
 
 
-def _class_of_scene(scene: Scene, options: Options) -> ClassWork:
+def _class_of_scene(scene: Scene, keys: Mapping[str, Any]) -> ClassWork:
     """The variants of a scene."""
     from graphplan.marking.classroom.booklet import overview, print_exercise
     from graphplan.marking.classroom.variants import SceneDesign
     from graphplan.marking.desk import key_rows
 
-    draw = partial(draft_scene, options)
+    draw = partial(draft_scene, keys)
     drafted = draw(scene)
     return ClassWork(partial(SceneDesign, drafted, draw), partial(print_exercise, draw=draw, further=key_rows),
                      lambda lines: [*overview(drafted.composition, lines)], drafted.drawing.scene.title)
 
 
-def draft_scene(options: Options, scene: Scene) -> Drafted:
-    """A scene on its sheet, as the options say; fails as `graphplan draw` does."""
-    scene = on_sheet(with_rounds(scene, options), options)
-    return on_paper(scene, options, make_report(scene, options))
+def draft_scene(keys: Mapping[str, Any], scene: Scene) -> Drafted:
+    """A scene on its sheet, with these keys of [sheet]; fails as `graphplan draw` does."""
+    scene = translate_title(with_sheet(scene, keys))
+    return on_paper(scene, make_report(scene))

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.app.choices import Messages, add_choices, add_language, add_paper, count, drawing_options, load_source
+from graphplan.app.choices import Messages, add_choices, add_language, add_paper, count, load_source, sheet_keys
 from graphplan.app.files import new_folder
 from graphplan.marking.classroom.class_files import MAX_VARIANTS, ClassRequest
 from graphplan.marking.classroom.class_variants import write_variants
@@ -43,7 +43,7 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     messages = Messages(options.quiet)
     new_folder(options.output)
-    request = ClassRequest(options.count, options.names, options.seed, options.spare, options.jobs, messages.remark,
-                           messages.progress)
-    write_variants(load_source(options, "plan"), options.output, drawing_options(options), request)
+    request = ClassRequest(options.count, options.names, options.seed, options.spare, options.jobs, sheet_keys(options),
+                           messages.remark, messages.progress)
+    write_variants(load_source(options, "plan"), options.output, request)
     return 0

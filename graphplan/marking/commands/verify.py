@@ -39,11 +39,12 @@ from graphplan.app.choices import (
     add_sheet,
     add_travel,
     count,
-    drawing_options,
     error,
     load_source,
+    sheet_keys,
     text_of_scene,
 )
+from graphplan.app.drafting import with_sheet
 from graphplan.app.files import STANDARD, write
 from graphplan.errors import Refused
 from graphplan.marking.verifying import (
@@ -109,6 +110,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _findings(options: argparse.Namespace) -> Findings:
     """Findings of a drawing, of a folder, or of the answers to a rotor's task."""
+    from graphplan.machines.rotors import rotor
     from graphplan.marking.judge.score import parse_weights
     from graphplan.mechanism.scene import tables_of
 
@@ -119,11 +121,11 @@ def _findings(options: argparse.Namespace) -> Findings:
             for name in ("report", "score", "note", "at"):
                 if getattr(options, name):
                     raise Refused(f"--{name}", "it does not apply to answers", "--json alone")
-            return judge_rotor(text, options.scene, path, drawing_options(options))
+            return judge_rotor(with_sheet(rotor.parse(text, options.scene), sheet_keys(options)), path)
     weighed = parse_weights(options.weights)
     report_kind(options.report, path, options.scene)
     words = words_on_files(path, options.score or (), options.note or (), options.report)
-    desk = desk_for(load_source(options, "plan", "method", "inertia", "at"), weighed, drawing_options(options), words)
+    desk = desk_for(load_source(options, "plan", "method", "inertia", "at"), weighed, sheet_keys(options), words)
     judge = judge_folder if os.path.isdir(path) else judge_file
     return judge(desk, path, Listeners(messages.progress, error, options.report))
 

@@ -16,8 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from graphplan import __version__
-from graphplan.app.choices import Messages, drawing_options
-from graphplan.app.drafting import Options
+from graphplan.app.choices import Messages
 from graphplan.app.files import as_json, kind, write
 from graphplan.errors import Refused
 from graphplan.marking.classroom import results as found_results
@@ -116,7 +115,7 @@ class HandedOut:
     scene: Path
     corrected: Path
     weights: Weights
-    options: Options
+    keys: Mapping[str, Any]  # of [sheet]
     word: TeacherWord
 
     @property
@@ -124,7 +123,7 @@ class HandedOut:
         """Desk for the sheet, with the task that was printed for its student."""
         scene, sheet = load_scene(str(self.scene)), self.sheet
         named = replace(scene.sheet, student=sheet.student, group=sheet.group, variant=str(sheet.variant))
-        return Desk(draft_scene(self.options, replace(scene, sheet=named)), self.weights, self.options)
+        return Desk(draft_scene(self.keys, replace(scene, sheet=named)), self.weights, self.keys)
 
 
 @dataclass(frozen=True)
@@ -219,21 +218,20 @@ class StackDesk:
 
     def task(self, sheet: TaskSheet, *handed_in: object) -> tuple[str, HandedOut]:
         """A task with what was handed in for it, by a digest of all that its verdict hangs on."""
-        scene, options = self.folder / sheet.scene, self.sheet_options()
+        scene, keys = self.folder / sheet.scene, self.sheet_keys()
         word = self.words.get(sheet.owner, TeacherWord())
         made_from = key("judged sheet", __version__, *handed_in, sheet, file_digest(scene),
-                        sorted(self.register.options.items()), options.pencil, self.weights, word)
-        return made_from, HandedOut(sheet, scene, self.keeper.folder / f"{made_from}.pdf", self.weights, options, word)
+                        sorted(self.register.options.items()), self.options.pencil, self.weights, word)
+        return made_from, HandedOut(sheet, scene, self.keeper.folder / f"{made_from}.pdf", self.weights, keys, word)
 
-    def sheet_options(self) -> Options:
-        """The options by which the sheets of the class were drawn, and the pencil of this run."""
-        chosen = drawing_options(self.options)
+    def sheet_keys(self) -> dict[str, Any]:
+        """The keys of [sheet] by which the sheets of the class were drawn, and the pencil of this run."""
         if conflicting := [name for name in (*SHEET_OPTIONS, "at") if getattr(self.options, name)]:
             raise Refused(f"--{conflicting[0]}", f"the sheets of this class were drawn as its {REGISTER_FILE} says",
                           "leave it out")
         kept = {name: kind(value) for name, kind in SHEET_OPTIONS.items()
                 if (value := self.register.options.get(name))}
-        return Options(**kept, pencil=chosen.pencil)
+        return kept | {"pencil": self.options.pencil}
 
     def do_jobs(self, work: Callable[[Any], Data], jobs: Mapping[str, Any], what: str, named: Callable[[Any], str]
               ) -> dict[str, Data]:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
@@ -33,19 +33,18 @@ from graphplan.sheet.plates.display import Rect, Sheet
 @dataclass(frozen=True)
 class PencilInk:
     """Darkness 0..1 of the pencil, where it is `hidden` by print, `scale` pixels per mm, the sheet's height, and its
-    plans' panels, beside which students write; without panels, plans lie anywhere."""
+    plans' panels, beside which students write."""
 
     dark: Light
     hidden: Flags
     scale: float
     height: float
-    panels: tuple[Rect, ...] = ()
+    panels: tuple[Rect, ...]
 
     def is_on_plan(self, spots: Sequence[Spot]) -> bool:
         """Whether something with these spots lies in a panel, in part or whole."""
         figure = LineString(spots) if len(spots) > 1 else Point(spots[0])
-        return not self.panels or any(figure.intersects(box(panel.left, panel.bottom, panel.right, panel.top))
-                                      for panel in self.panels)
+        return any(figure.intersects(box(panel.left, panel.bottom, panel.right, panel.top)) for panel in self.panels)
 
     def pixels(self, spots: Spots) -> Spots:
         """Pixels of spots in mm, as columns and rows; whole numbers are the middles of pixels."""
@@ -60,18 +59,6 @@ class PencilInk:
         """Whether each spot is hidden or dark: a line may continue there, under print or another line."""
         cells = self.cells(spots)
         return np.asarray(self.hidden[cells] | (self.dark[cells] > measures.MIN_INK_DARKNESS), bool)
-
-    def hide(self, spots: Sequence[Spot], lines: Sequence[tuple[Spot, Spot]], radius: float, half: float) -> PencilInk:
-        """The picture with discs of this radius about some spots hidden, and lines of half a width, in mm, as print
-        hides pencil."""
-        covered = np.zeros(self.hidden.shape, np.uint8)
-        for column, row in np.rint(self.pixels(np.array(spots))).astype(int).tolist():
-            cv2.circle(covered, (column, row), round(radius * self.scale), 1, -1)
-        for line in lines:
-            cv2.polylines(covered, [np.rint(self.pixels(np.array(line))).astype(np.int32)], False, 1,
-                          round(2 * half * self.scale))
-        hidden = self.hidden | (covered > 0)
-        return replace(self, hidden=hidden, dark=np.where(hidden, np.float32(0.0), self.dark))
 
     def cells(self, spots: Spots) -> tuple[Places, Places]:
         """The rows and columns of spots; beside the sheet, those of its edge."""

@@ -181,7 +181,7 @@ KINDS = {  # shares as they were measured
                                  placed=0.9, explained=0.9),
     "tables": Kind(as_files(["csv"], hand.table, hand.mistaken_table), LINKAGES),
     # of pictures a result whose mark is not seen is to be looked at: such a drawing is not complete
-    "scans": Kind(on_task(partial(pictures.scan, dpi=120.0)), pictures.PICTURED, complete=0.7, placed=0.9,
+    "scans": Kind(on_task(partial(pictures.scan, dpi=120.0)), pictures.PICTURED, complete=0.8, placed=0.9,
                   explained=0.9, seed=1),
     "photos": Kind(on_task(pictures.photo), pictures.PICTURED, complete=0.8, placed=0.8, explained=0.8, number=5,
                    seed=1),

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -60,6 +60,10 @@ class PencilInk:
         cells = self.cells(spots)
         return np.asarray(self.hidden[cells] | (self.dark[cells] > measures.MIN_INK_DARKNESS), bool)
 
+    def hidden_within(self, far: float) -> Flags:
+        """Whether something so many mm about each pixel is hidden."""
+        return np.asarray(cv2.dilate(self.hidden.astype(np.uint8), _disc(far * self.scale)) > 0, bool)
+
     def cells(self, spots: Spots) -> tuple[Places, Places]:
         """The rows and columns of spots; beside the sheet, those of its edge."""
         high, wide = self.hidden.shape
@@ -68,9 +72,9 @@ class PencilInk:
         return at[:, 1], at[:, 0]
 
 
-def pencil_ink(image: Light, sheet: Sheet, light: Light, scale: float) -> PencilInk:
-    """The pencil on the straightened picture of a sheet, whose print is `light` in the same pixels; the edge of the
-    paper is left out."""
+def pencil_ink(image: Light, sheet: Sheet, light: Light, scale: float) -> tuple[PencilInk, PencilInk]:
+    """The pencil on the straightened picture of a sheet, whose print is `light` in the same pixels: apart from print
+    and from the edge of the paper; and up to the print, where it may be print that is blurred."""
     paper = np.asarray(image / np.maximum(light, measures.MAX_PRINT_LIGHTNESS), np.float32)
     dark = darkness(paper)
     inked = ((light < measures.MAX_PRINT_LIGHTNESS) | print_words(sheet, scale)).astype(np.uint8)
@@ -78,8 +82,9 @@ def pencil_ink(image: Light, sheet: Sheet, light: Light, scale: float) -> Pencil
                             _disc(measures.PRINT_GAP_MM * scale / 2))
     hidden, edge = np.ones(wide.shape, bool), round(measures.PAPER_EDGE_MM * scale)
     hidden[edge:-edge, edge:-edge] = wide[edge:-edge, edge:-edge] > 0
-    dark[hidden] = 0.0
-    return PencilInk(dark, hidden, scale, sheet.height, tuple(sheet.panels.values()))
+    apart = PencilInk(np.where(hidden, np.float32(0.0), dark), hidden, scale, sheet.height,
+                      tuple(sheet.panels.values()))
+    return apart, replace(apart, dark=dark, hidden=inked > 0)
 
 
 def _disc(radius: float) -> NDArray[np.uint8]:
@@ -207,16 +212,19 @@ def _dot_at(ink: PencilInk, row: int, column: int) -> Trace:
     return Trace(POINT, ((float(at[0]), float(at[1])),), blur=wide / measures.DOT_BLUR_SHARE)
 
 
-def dot_width_darkness(ink: PencilInk, spot: Spot) -> float:
-    """Least darkness all around some middle near a spot, without the lightest fifth of the sides, at a rim narrower
-    than dots and wider than lines; 0 if print hides it."""
+def dot_width_darkness(ink: PencilInk, spot: Spot) -> tuple[float, Spot]:
+    """Least darkness all around a middle near a spot, without the lightest fifth of the sides, at a rim narrower than
+    dots and wider than lines, and the middle for which it is largest; 0 if print hides it."""
     turns = np.arange(measures.RING_PLACES) * (2 * math.pi / measures.RING_PLACES)
     rim = measures.DOT_RIM_MM * np.column_stack([np.cos(turns), np.sin(turns)])
     shifts = np.arange(*measures.DOT_RIM_SHIFTS_MM)
     middles = np.array(spot) + np.stack(np.meshgrid(shifts, shifts), axis=-1).reshape(-1, 1, 2)
     dark = _darkness(ink, middles + rim)
-    dark = dark[(dark < 0).mean(axis=1) < measures.MAX_HIDDEN_RIM_SHARE]
-    return float(np.percentile(np.maximum(dark, 0.0), measures.DOT_RIM_PERCENTILE, axis=1).max(initial=0.0))
+    is_open = (dark < 0).mean(axis=1) < measures.MAX_HIDDEN_RIM_SHARE
+    least = np.where(is_open, np.percentile(np.maximum(dark, 0.0), measures.DOT_RIM_PERCENTILE, axis=1), 0.0)
+    best = int(least.argmax())
+    x, y = middles[best, 0].tolist()
+    return float(least[best]), (x, y)
 
 
 RADII = np.arange(*measures.RING_RADII_MM)

@@ -23,7 +23,6 @@ from graphplan.cycle.turn import follow
 from graphplan.design.hand import Pencil
 from graphplan.errors import GraphplanError, Refused
 from graphplan.kernel.kinds import POINT
-from graphplan.kernel.passes import steps_behind
 from graphplan.machines.subjects import pencil_errors
 from graphplan.marking.classroom.booklet import KeyRow, single_row
 from graphplan.marking.judge.numbers import ExpectedCycleNumber
@@ -281,7 +280,7 @@ class Desk:
 
         arrangement = (self.as_drawn or self.on_sheet.composition).arrangement
         return read_submission(path, self.plans, self.frames,  # task and guided version have the same plans
-                               self._print_task, self._code, (arrangement.width, arrangement.height), self._marks)
+                               self._print_task, self._code, (arrangement.width, arrangement.height))
 
     def _print_task(self) -> Sheet:
         """The sheet that students draw on."""
@@ -304,23 +303,6 @@ class Desk:
         are_asked = self.keys.get("method") or self.keys.get("plan")
         motion_plans = () if are_asked else (N_PLAN, VELOCITY_PLAN, ACCELERATION_PLAN)
         return list(dict.fromkeys([*self.on_sheet.composition.views, *motion_plans]))
-
-    @property
-    def _marks(self) -> dict[str, dict[str, complex]]:
-        """Places of the lettered marks on their plans, in their units, those first that depend on fewest others; of the
-        mechanism its given points."""
-        from graphplan.methods.panels import MECHANISM
-
-        drawing, plan_of_step = self.on_sheet.drawing, self.on_sheet.composition.plans.plan_of_step
-        marks: dict[str, dict[str, complex]] = {}
-        steps = drawing.drawn.steps
-        points = [step for step in steps if step.op.gives == POINT and step.name]
-        for step in sorted(points, key=lambda step: sum(
-                bool(steps[index].name) for index in steps_behind(steps, [step.index]))):
-            panel = plan_of_step[step.index]
-            if panel != MECHANISM or step.index < drawing.drawn.givens:
-                marks.setdefault(panel, {})[step.name] = complex(*map(float, drawing.values[step.index][:2]))
-        return marks
 
     @cached_property
     def _cycle(self) -> CycleResults:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection
 from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from graphplan.errors import Refused
 from graphplan.marking.traces import Frames, Submission
-from graphplan.methods.panels import MECHANISM
 
 if TYPE_CHECKING:
     from graphplan.sheet.plates.display import Sheet
@@ -24,12 +23,11 @@ READER_PACKAGES = {".svg": ("svgelements", "svg"), ".dxf": ("ezdxf", "dxf")}
 
 def read_submission(path: Path, panels: Collection[str], frames: Frames,
                     printed: Callable[[], Sheet] | None = None, code: int | None = None,
-                    size: SheetSize = None, marks: Mapping[str, Mapping[str, complex]] | None = None) -> Submission:
+                    size: SheetSize = None) -> Submission:
     """The drawing in a file; `panels` are the plans of the construction, `frames` where they lie on its own sheet.
 
     A picture is read beside the sheet that was `printed`, laid out when it is asked for, and the `code` of its corner
-    marks. `size` is its width and height in mm: on paper of another size plans lie elsewhere. On blank paper the
-    plans are found by their `marks`, which are where the task has them, in their own units.
+    marks. `size` is its width and height in mm: on paper of another size plans lie elsewhere.
 
     Fails with `Refused` where the file is none that can be read, or says nothing, and tells what to do.
     """
@@ -37,7 +35,7 @@ def read_submission(path: Path, panels: Collection[str], frames: Frames,
     if suffix == ".pdf" and (drawing := _read_pdf(path, frames, size, code)):
         return drawing
     if suffix in PICTURE_SUFFIXES:
-        return _read_image(path, frames, printed, code, marks or {})
+        return _read_image(path, frames, printed, code)
     if suffix not in DATA_SUFFIXES:
         kind = suffix if suffix[1:].isalnum() else "without a suffix that is known"
         raise Refused(f"{path}", f"files of this kind ({kind[:40]}) are not read",
@@ -65,28 +63,19 @@ def _read_pdf(path: Path, frames: Frames, size: SheetSize, code: int | None) -> 
     return read_pdf(path, frames, size, has_corner_marks)
 
 
-def _read_image(path: Path, frames: Frames, printed: Callable[[], Sheet] | None, code: int | None,
-                marks: Mapping[str, Mapping[str, complex]]) -> Submission:
-    """A scan or photo of the printed sheet, or of blank paper."""
+def _read_image(path: Path, frames: Frames, printed: Callable[[], Sheet] | None, code: int | None) -> Submission:
+    """A scan or photo of the printed sheet."""
     if printed is None:
         raise Refused(f"{path}", "a picture is read beside the sheet that was printed, and none is named",
                       "measured points or a CAD file")
     if not find_spec("cv2"):
         raise Refused(f"{path}", "reading pictures needs OpenCV, which is not installed",
                       "pip install 'graphplan[scan]'")
-    from graphplan.marking.scans.blank_paper import read_blank_paper
     from graphplan.marking.scans.image import silence_stderr
     from graphplan.marking.scans.scan import read_scan
-    from graphplan.marking.scans.straighten import SheetNotFound
 
     with silence_stderr():
-        try:
-            return read_scan(path, sheet := printed(), frames, code)
-        except SheetNotFound:
-            if len(marks.get(MECHANISM, ())) > 1 and MECHANISM in frames and (submission := read_blank_paper(
-                    path, marks, frames, (sheet.width, sheet.height))):
-                return submission
-            raise
+        return read_scan(path, printed(), frames, code)
 
 
 def _read_data_file(path: Path, suffix: str, panels: Collection[str], frames: Frames, size: SheetSize) -> Submission:

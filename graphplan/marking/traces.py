@@ -21,7 +21,6 @@ from shapely import LineString, Point, Polygon
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.sheet.lettering.lettering import CAPS, GREEK
-from graphplan.sheet.plates.display import Rect
 
 Spot = tuple[float, float]
 MIN_SPOTS = {POINT: 1, LINE: 2, CIRCLE: 3}  # how many spots at least say where a thing lies
@@ -156,7 +155,6 @@ class Submission:
     A file of measured points shows no lines, so that none is missing there. A picture's faint lines are found where
     they are expected: its `page` is asked for them. `tips` are where heads of arrows end, filled or open ones.
     `letters` stand beside marks; which of them each names, the whole drawing tells.
-    `paper` is the picture's sheet where plans may lie anywhere on it, as nothing is printed.
     `millimetres` is what speaks for lengths being in mm, as a logarithm of odds.
     `measured` says that its marks were measured and written down, `stated` how precisely in the student's own words:
     else their blur is the least that it may be. `left_out` is what it has that is too small to be seen on paper.
@@ -168,7 +166,6 @@ class Submission:
     shows: frozenset[str] = frozenset()
     frames: Frames = field(default_factory=dict)
     page: SearchableImage | None = None
-    paper: Rect | None = None
     tips: tuple[Spot, ...] = ()
     letters: tuple[Lettering, ...] = ()
     measured: bool = False

@@ -1,5 +1,4 @@
-"""Hand drawings as a scanner or a phone sees them: on the printed task or on blank paper, by pencil, with all that
-spoils a picture.
+"""Hand drawings as a scanner or a phone sees them: on the printed task, by pencil, with all that spoils a picture.
 
 One number decides everything, so that a picture is the same in every run. Strokes are chains of spots in mm of the
 sheet with a pencil's width and darkness.
@@ -10,7 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -23,13 +22,13 @@ import pypdfium2
 from drawing_board import Board, Fault, Places, Task, Unfit
 from drawing_tasks import MAKERS
 from face import ran
-from hand_drawings import Drawing, scene_file, steps_of, task_of
+from hand_drawings import Drawing, scene_file, steps_of
 from numpy.typing import NDArray
 
 PHONE = 4032, 3024  # pixels: 12 megapixels
 INCH, FINE = 25.4, 8.0  # mm; the page is drawn in so many pixels per mm before anyone looks at it
 WOBBLE, OVERSHOOT, SMUDGES = (0.03, 0.08), 1.5, 3  # mm of a hand, mm at the ends of lines, and how many are left
-BEYOND_MM, EDGE_MM, SQUARE_MM, RULING, A3 = 3.0, 12.0, 5.0, 0.72, (420.0, 297.0)
+BEYOND_MM = 3.0  # of a line, beyond its end
 MARGINS_MM = 7.8, 17.5, 7.0  # of the printed task, in which its corner marks stand: above and below, left, right
 PICTURED = [name for name, (_, plan) in MAKERS.items() if plan in ("polar", "orthogonal")]
 Image = NDArray[np.float32]
@@ -156,28 +155,6 @@ def given_places(task: Task, height: float, scene: str, *options: str) -> Places
     return Places(O, 0j, a, k, v_a / abs(task.omega) / crank, times)
 
 
-def on_blank_paper(name: str, seed: int, fault: Fault | None, squared: bool) -> tuple[Drawing, Paper, list[Stroke]]:
-    """A drawing at a size and place of its own on empty paper, its first fixed points lettered."""
-    task, chance = task_of(name, seed), np.random.default_rng([seed, 7])
-    own = given_places(task, printed(scene_file(task), *task.options).height, scene_file(task), *task.options)
-    size = chance.uniform(0.85, 1.05)
-    shift = complex(*chance.uniform(5, 10, 2))
-    board = Board(random.Random(seed), fault)
-    task.draw(task, board, Places(*(size * z + shift for z in (own.mechanism, own.first, own.second)), size * own.k,
-                                  size * own.kv, own.ka * (size if task.plan == "polar" else 1.0)))
-    if not all(EDGE_MM < z.real < A3[0] - EDGE_MM and EDGE_MM < z.imag < A3[1] - EDGE_MM for z in board.marks.values()):
-        raise Unfit("off the paper")
-    strokes = pencilled(board)
-    for letter in "OC" if ("mechanism", "C") in board.marks else "OA":
-        at = freest_spot(board.marks["mechanism", letter], board)
-        strokes += letter_strokes(letter, at, chance.uniform(3.0, 4.2), chance.uniform(0, 0.25))
-    page = np.full((round(A3[1] * FINE), round(A3[0] * FINE)), 0.97, np.float32)
-    for axis, first in enumerate(chance.uniform(0, SQUARE_MM, 2) if squared else ()):
-        for along in np.arange(first, A3[1 - axis], SQUARE_MM):
-            page[(slice(int(along * FINE), int(along * FINE) + 2), slice(None))[:: 1 - 2 * axis]] = RULING
-    return Drawing(task, board, fault), Paper(*A3, page), strokes
-
-
 def pencilled(board: Board) -> list[Stroke]:
     """What a pencil leaves of a drawing: strokes beyond their ends, and dots."""
     lines = [(one, other + BEYOND_MM * (other - one) / abs(other - one)) for one, other in board.strokes
@@ -185,32 +162,6 @@ def pencilled(board: Board) -> list[Stroke]:
     dots = [[z + cmath.rect(0.25, 1.5 * k) for k in range(5)] for z in board.marks.values()]
     return [*(([(z.real, z.imag) for z in line], 0.3, 0.7) for line in lines),
             *(([(z.real, z.imag) for z in dot], 0.5, 0.9) for dot in dots)]
-
-
-def _arc(x: float, wide: float, start: float, end: float) -> list[complex]:
-    """A piece of an oval in a letter's box, counter-clockwise between two angles in degrees."""
-    turns = [math.radians(start + (end - start) * k / 24) for k in range(25)]
-    return [complex(x + wide * math.cos(turn), 0.5 + 0.5 * math.sin(turn)) for turn in turns]
-
-
-LETTERS = {  # strokes in a box of height 1
-    "O": [_arc(0.4, 0.4, 90, 450)], "C": [_arc(0.45, 0.42, 50, 310)],
-    "A": [[0j, 0.35 + 1j, 0.7 + 0j], [0.12 + 0.35j, 0.58 + 0.35j]],
-}
-
-
-def letter_strokes(letter: str, at: complex, size: float, lean: float) -> Iterator[Stroke]:
-    """A letter about a spot, leaning to the right."""
-    for stroke in LETTERS[letter]:
-        spots = [at + size * complex(z.real + lean * z.imag - 0.4, z.imag - 0.5) for z in stroke]
-        yield [(z.real, z.imag) for z in spots], 0.3, 0.75
-
-
-def freest_spot(about: complex, board: Board) -> complex:
-    """The spot for a letter about a point that is farthest from all strokes."""
-    spots = np.array([one + (other - one) * share for one, other in board.strokes for share in np.linspace(0, 1.1, 60)])
-    around = about + 4.0 * np.exp(2j * np.pi * np.arange(16) / 16)
-    return complex(around[np.abs(around[:, None] - spots[None]).min(axis=1).argmax()])
 
 
 # ---- the pencil ------------------------------------------------------------------------------------------------------

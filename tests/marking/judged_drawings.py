@@ -120,16 +120,6 @@ def on_task(take: Callable[..., pictures.Grey]) -> Put:
     return put
 
 
-def on_blank(squared: bool) -> Put:
-    """What makes scans of blank paper."""
-    def put(name: str, seed: int, faulty: bool, folder: Path) -> tuple[hand.Drawing, Path]:
-        drawing, *drawn = pictures.on_blank_paper(name, seed, fault_of(name, seed, faulty), squared)
-        cv2.imwrite(str(path := folder / "picture.png"), pictures.scan(*drawn, seed))
-        return drawing, path
-
-    return put
-
-
 @dataclass(frozen=True)
 class Kind:
     """A kind of drawings: how they are made, of which names, and in what shares they are to be judged well.
@@ -191,11 +181,8 @@ KINDS = {  # shares as they were measured
                                  placed=0.9, explained=0.9),
     "tables": Kind(as_files(["csv"], hand.table, hand.mistaken_table), LINKAGES),
     # of pictures a result whose mark is not seen is to be looked at: such a drawing is not complete
-    "scans": Kind(on_task(partial(pictures.scan, dpi=120.0)), pictures.PICTURED, complete=0.7, placed=0.9,
+    "scans": Kind(on_task(partial(pictures.scan, dpi=120.0)), pictures.PICTURED, complete=0.8, placed=0.9,
                   explained=0.9, seed=1),
     "photos": Kind(on_task(pictures.photo), pictures.PICTURED, complete=0.8, placed=0.8, explained=0.8, number=5,
                    seed=1),
-    "blank paper": Kind(on_blank(False), pictures.PICTURED, complete=0.6, placed=0.8, explained=0.8, unread=0.1,
-                        seed=1),
-    "squared paper": Kind(on_blank(True), pictures.PICTURED, complete=0.6, number=3, seed=1),  # 9 of 10 were complete
 }

@@ -85,7 +85,7 @@ def refused(folder: Path, image: Grey) -> str:
 
 
 def test_what_is_no_drawing_on_the_task_is_refused(tmp_path: Path) -> None:
-    """Another task's sheet, one that is cut off, a picture of nothing and one of noise."""
+    """Another task's sheet, one that is cut off, a drawing on blank paper, a picture of nothing and one of noise."""
     _, paper, strokes = upon_task()
     other = printed("slider-crank", "--paper", "A4")
     assert "those of another task" in refused(tmp_path, scan(other, [], 81))
@@ -93,6 +93,8 @@ def test_what_is_no_drawing_on_the_task_is_refused(tmp_path: Path) -> None:
     cut = refused(tmp_path, image[:, : image.shape[1] * 3 // 5])
     assert any(word in cut for word in ("cut off", "not found", "neither"))
     assert "blank" in refused(tmp_path, np.full((600, 800), 240, np.uint8))
+    blank = Paper(paper.width, paper.height, np.full_like(paper.page, 0.97))
+    assert "measured points" in refused(tmp_path, scan(blank, strokes, 83))
     noise = np.random.default_rng(3).integers(0, 255, (600, 800), np.uint8)
     assert any(word in refused(tmp_path, noise) for word in ("neither", "not found"))
 

@@ -145,7 +145,7 @@ class ImageSearch(Evidence):
                  panels: Mapping[str, Rect], found: dict[tuple[Any, ...], Trace | None]):
         super().__init__(sheet, submission, traces, places)
         assert submission.page
-        self.page, self.panels, self._cache, self._paper = submission.page, panels, found, submission.paper
+        self.page, self.panels, self._cache = submission.page, panels, found
 
     def trace_weight(self, trace: Trace) -> float:
         return self.weight(self.traces.index(trace)) if trace in self.traces else measures.FAINT_ODDS[trace.kind]
@@ -207,7 +207,7 @@ class ImageSearch(Evidence):
         return list(filter(self._panel(step).holds, spots))
 
     def _panel(self, step: Step) -> Rect:
-        return self._paper or self.panels[self.sheet.plan_of_step[step.index]]
+        return self.panels[self.sheet.plan_of_step[step.index]]
 
     def _sheet_spot(self, step: Step, z: complex) -> Spot:
         spot = self.sheet.frame(step).to_sheet(z)

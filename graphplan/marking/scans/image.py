@@ -69,16 +69,6 @@ def _header(data: bytes) -> ImageFile | None:
         return None
 
 
-def stated_dpi(path: Path, image: Grey) -> float | None:
-    """Dots per inch that a file states for its picture; None if not stated."""
-    data = contents(path, measures.MAX_FILE_BYTES)
-    if data.startswith(PDF):
-        return float(measures.PDF_DPI)
-    header = _header(data)
-    dpi = float(header.info.get("dpi", (0.0,))[0]) if header else 0.0
-    return dpi * max(image.shape) / max(header.size) if header and dpi else None
-
-
 def _decode(path: Path, data: bytes) -> Grey:
     """The picture itself, upright as the camera was held."""
     header = _header(data)

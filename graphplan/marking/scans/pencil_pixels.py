@@ -33,19 +33,18 @@ from graphplan.sheet.plates.display import Rect, Sheet
 @dataclass(frozen=True)
 class PencilInk:
     """Darkness 0..1 of the pencil, where it is `hidden` by print, `scale` pixels per mm, the sheet's height, and its
-    plans' panels, beside which students write; without panels, plans lie anywhere."""
+    plans' panels, beside which students write."""
 
     dark: Light
     hidden: Flags
     scale: float
     height: float
-    panels: tuple[Rect, ...] = ()
+    panels: tuple[Rect, ...]
 
     def is_on_plan(self, spots: Sequence[Spot]) -> bool:
         """Whether something with these spots lies in a panel, in part or whole."""
         figure = LineString(spots) if len(spots) > 1 else Point(spots[0])
-        return not self.panels or any(figure.intersects(box(panel.left, panel.bottom, panel.right, panel.top))
-                                      for panel in self.panels)
+        return any(figure.intersects(box(panel.left, panel.bottom, panel.right, panel.top)) for panel in self.panels)
 
     def pixels(self, spots: Spots) -> Spots:
         """Pixels of spots in mm, as columns and rows; whole numbers are the middles of pixels."""
@@ -61,17 +60,9 @@ class PencilInk:
         cells = self.cells(spots)
         return np.asarray(self.hidden[cells] | (self.dark[cells] > measures.MIN_INK_DARKNESS), bool)
 
-    def hide(self, spots: Sequence[Spot], lines: Sequence[tuple[Spot, Spot]], radius: float, half: float) -> PencilInk:
-        """The picture with discs of this radius about some spots hidden, and lines of half a width, in mm, as print
-        hides pencil."""
-        covered = np.zeros(self.hidden.shape, np.uint8)
-        for column, row in np.rint(self.pixels(np.array(spots))).astype(int).tolist():
-            cv2.circle(covered, (column, row), round(radius * self.scale), 1, -1)
-        for line in lines:
-            cv2.polylines(covered, [np.rint(self.pixels(np.array(line))).astype(np.int32)], False, 1,
-                          round(2 * half * self.scale))
-        hidden = self.hidden | (covered > 0)
-        return replace(self, hidden=hidden, dark=np.where(hidden, np.float32(0.0), self.dark))
+    def hidden_within(self, far: float) -> Flags:
+        """Whether something so many mm about each pixel is hidden."""
+        return np.asarray(cv2.dilate(self.hidden.astype(np.uint8), _disc(far * self.scale)) > 0, bool)
 
     def cells(self, spots: Spots) -> tuple[Places, Places]:
         """The rows and columns of spots; beside the sheet, those of its edge."""
@@ -81,9 +72,9 @@ class PencilInk:
         return at[:, 1], at[:, 0]
 
 
-def pencil_ink(image: Light, sheet: Sheet, light: Light, scale: float) -> PencilInk:
-    """The pencil on the straightened picture of a sheet, whose print is `light` in the same pixels; the edge of the
-    paper is left out."""
+def pencil_ink(image: Light, sheet: Sheet, light: Light, scale: float) -> tuple[PencilInk, PencilInk]:
+    """The pencil on the straightened picture of a sheet, whose print is `light` in the same pixels: apart from print
+    and from the edge of the paper; and up to the print, where it may be print that is blurred."""
     paper = np.asarray(image / np.maximum(light, measures.MAX_PRINT_LIGHTNESS), np.float32)
     dark = darkness(paper)
     inked = ((light < measures.MAX_PRINT_LIGHTNESS) | print_words(sheet, scale)).astype(np.uint8)
@@ -91,8 +82,9 @@ def pencil_ink(image: Light, sheet: Sheet, light: Light, scale: float) -> Pencil
                             _disc(measures.PRINT_GAP_MM * scale / 2))
     hidden, edge = np.ones(wide.shape, bool), round(measures.PAPER_EDGE_MM * scale)
     hidden[edge:-edge, edge:-edge] = wide[edge:-edge, edge:-edge] > 0
-    dark[hidden] = 0.0
-    return PencilInk(dark, hidden, scale, sheet.height, tuple(sheet.panels.values()))
+    apart = PencilInk(np.where(hidden, np.float32(0.0), dark), hidden, scale, sheet.height,
+                      tuple(sheet.panels.values()))
+    return apart, replace(apart, dark=dark, hidden=inked > 0)
 
 
 def _disc(radius: float) -> NDArray[np.uint8]:
@@ -220,16 +212,19 @@ def _dot_at(ink: PencilInk, row: int, column: int) -> Trace:
     return Trace(POINT, ((float(at[0]), float(at[1])),), blur=wide / measures.DOT_BLUR_SHARE)
 
 
-def dot_width_darkness(ink: PencilInk, spot: Spot) -> float:
-    """Least darkness all around some middle near a spot, without the lightest fifth of the sides, at a rim narrower
-    than dots and wider than lines; 0 if print hides it."""
+def dot_width_darkness(ink: PencilInk, spot: Spot) -> tuple[float, Spot]:
+    """Least darkness all around a middle near a spot, without the lightest fifth of the sides, at a rim narrower than
+    dots and wider than lines, and the middle for which it is largest; 0 if print hides it."""
     turns = np.arange(measures.RING_PLACES) * (2 * math.pi / measures.RING_PLACES)
     rim = measures.DOT_RIM_MM * np.column_stack([np.cos(turns), np.sin(turns)])
     shifts = np.arange(*measures.DOT_RIM_SHIFTS_MM)
     middles = np.array(spot) + np.stack(np.meshgrid(shifts, shifts), axis=-1).reshape(-1, 1, 2)
     dark = _darkness(ink, middles + rim)
-    dark = dark[(dark < 0).mean(axis=1) < measures.MAX_HIDDEN_RIM_SHARE]
-    return float(np.percentile(np.maximum(dark, 0.0), measures.DOT_RIM_PERCENTILE, axis=1).max(initial=0.0))
+    is_open = (dark < 0).mean(axis=1) < measures.MAX_HIDDEN_RIM_SHARE
+    least = np.where(is_open, np.percentile(np.maximum(dark, 0.0), measures.DOT_RIM_PERCENTILE, axis=1), 0.0)
+    best = int(least.argmax())
+    x, y = middles[best, 0].tolist()
+    return float(least[best]), (x, y)
 
 
 RADII = np.arange(*measures.RING_RADII_MM)

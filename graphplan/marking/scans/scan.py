@@ -85,9 +85,9 @@ def _pencil_page(image: Grey, printed: Sheet, code: int | None, name: str) -> Pe
     light = print_picture(printed, scale)
     straight, registered = _straighten_either_way(shrink(image, measures.MAX_PAGE_PX), printed, light, scale, code,
                                                   name)
-    pencil = pencil_ink(straight, printed, light, scale)
+    pencil, up_to_print = pencil_ink(straight, printed, light, scale)
     ridges = find_ridges(pencil, registered.warp.fineness())
-    return PencilPage(pencil, ridges, registered.error, registered.warp)
+    return PencilPage(pencil, up_to_print, ridges, registered.error, registered.warp)
 
 
 def _straighten_either_way(image: Grey, printed: Sheet, light: Light, scale: float, code: int | None, name: str
@@ -107,10 +107,11 @@ def _straighten_either_way(image: Grey, printed: Sheet, light: Light, scale: flo
 
 @dataclass(frozen=True)
 class PencilPage:
-    """The pencil on a page, its crests, how unsure their places are, as a standard deviation in mm, and how the picture
-    shows the sheet."""
+    """The pencil on a page, the same `up_to_print`, its crests, how unsure their places are, as a standard deviation in
+    mm, and how the picture shows the sheet."""
 
     ink: PencilInk
+    up_to_print: PencilInk
     ridges: Ridges
     error: float
     warp: Warp
@@ -182,20 +183,31 @@ class PencilPage:
         return None if rim is None or rim.stretch.long < measures.MIN_ARC_MM else self._with_page_error(rim.trace())
 
     def find_dot(self, spot: Spot, within: float) -> Trace | None:
-        """The dot nearest to where one is expected."""
+        """The dot nearest to where one is expected; beside print rather a dot there that is wider than print."""
         off = np.abs(self._possible_dot_spots - complex(*spot))
-        return self.possible_dots[int(off.argmin())] if off.min(initial=math.inf) < within else None
+        nearest = self.possible_dots[int(off.argmin())] if off.min(initial=math.inf) < within else None
+        return self._dot_at_print(spot) or nearest
+
+    def _dot_at_print(self, spot: Spot) -> Trace | None:
+        """The dot at a spot that print hides, in part or whole: it is darker all around than print is beside itself."""
+        if not self._picture_about(self.ink.hidden, spot, measures.HALF_DOT_MM).any():
+            return None
+        dark, middle = dot_width_darkness(self.up_to_print, spot)
+        if dark < measures.DOT_AT_PRINT_RATIO * self._clear_darkness:
+            return None
+        return self._with_page_error(Trace(POINT, (middle,), blur=measures.DOT_ERROR_MM))
 
     @cached_property
     def _distances(self) -> list[Light]:
-        """Distance of every pixel from the next strong crest, and from the next dot, in mm; -1 if print hides it."""
-        maps = []
-        for spots in (self.ridges.spots[self.ridges.strength > measures.CLEAR_SIGMAS],
-                      self._possible_dot_spots.view(float).reshape(-1, 2)):
+        """Distance of every pixel from the next strong crest, and from the next dot, in mm; -1 if print hides it, or half
+        of the dot."""
+        maps, at_dots = [], self._possible_dot_spots.view(float).reshape(-1, 2)
+        for spots, half in ((self.ridges.spots[self.ridges.strength > measures.CLEAR_SIGMAS], 0.0),
+                            (at_dots, measures.HALF_DOT_MM)):
             bare = np.ones(self.ink.dark.shape, np.uint8)
             bare[self.ink.cells(spots)] = 0
             far = np.asarray(cv2.distanceTransform(bare, cv2.DIST_L2, 3), np.float32) / np.float32(self.ink.scale)
-            maps.append(np.where(self.ink.hidden, np.float32(-1.0), far))
+            maps.append(np.where(self.ink.hidden_within(half), np.float32(-1.0), far))
         return maps
 
     @cached_property
@@ -269,7 +281,7 @@ class PencilPage:
     def _wide_dots(self) -> list[Trace]:
         """The dots that are dark all around their middles, as lines are not, nor where lines cross."""
         return [dot for dot in self._dark_dots
-                if dot_width_darkness(self.ink, dot.spots[0]) > measures.WIDE_DOT_SHARE * self._clear_darkness]
+                if dot_width_darkness(self.ink, dot.spots[0])[0] > measures.WIDE_DOT_SHARE * self._clear_darkness]
 
     def _picture_about(self, picture: NDArray[Any], spot: Spot, reach: float) -> NDArray[Any]:
         """The piece of a picture about a spot, so many mm to each side."""

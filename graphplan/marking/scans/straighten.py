@@ -23,13 +23,6 @@ from graphplan.marking.tolerances import MIN_DIVISOR
 from graphplan.sheet.frames.frame import WHITE, corner_rects
 from graphplan.sheet.plates.display import Photograph, Rect, Sheet
 
-ON_BLANK_PAPER = ("a drawing on blank or squared paper without a frame, with letters beside two points of the "
-                  "mechanism, in capitals")
-
-
-class SheetNotFound(Refused):
-    """Nothing of the printed sheet is in a picture."""
-
 
 @dataclass(frozen=True)
 class Warp:
@@ -271,14 +264,13 @@ def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int 
     marks = find_marks(image, code, name)
     result = _lay_sheet(image, sheet, light, scale, marks)
     if result is None:
-        raise SheetNotFound(name, "neither the corner marks nor the frame of this task was found",
-                            "photograph the whole sheet with its four corner marks, lying flat, in even light; "
-                            + ON_BLANK_PAPER)
+        raise Refused(name, "neither the corner marks nor the frame of this task was found: only drawings on the "
+                      "printed task are read from pictures", "scan the whole printed task, or photograph it lying flat "
+                      "in even light; of a drawing on other paper hand in measured points (.csv)")
     if result.own_share < measures.OWN_PRINT_SHARE:
-        refusal = Refused if marks else SheetNotFound  # squares of paper look like a frame
-        raise refusal(name, "the print of this task was not found on it",
-                      "verify it against its own scene, plan, pose and paper, photographed lying flat; "
-                      + ON_BLANK_PAPER)
+        raise Refused(name, "the print of this task was not found on it",
+                      "verify it against its own scene, plan, pose and paper, photographed lying flat; of a drawing on "
+                      "other paper hand in measured points (.csv)")
     _require_whole(result.warp, image, sheet, name)
     return lay_straight(image, result.warp, scale), result
 

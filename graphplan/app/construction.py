@@ -20,7 +20,15 @@ from graphplan.mechanism.model import Frozen, NamedValues
 from graphplan.mechanism.travel import printed_travels
 from graphplan.methods.construction import Construction
 from graphplan.methods.results import NamedResults, axes, facts, forces
-from graphplan.output.tables import Columns, csv_head, csv_rows, pose_columns, sizes_and_directions
+from graphplan.output.tables import (
+    LARGEST,
+    Columns,
+    LargestLoads,
+    csv_head,
+    csv_rows,
+    pose_columns,
+    sizes_and_directions,
+)
 
 if TYPE_CHECKING:
     from graphplan.cycle.turn import Turn
@@ -205,6 +213,15 @@ class MotionSeries(NamedResults[Any, Any]):
     def efficiency(self) -> Any:
         """The instantaneous efficiency in each pose of a motion; None of a machine without friction."""
         return efficiency_of(self.scene, self.poses.turn, self.results) if self.poses is not None else None
+
+    @cached_property
+    def largest(self) -> dict[str, dict[str, float]]:
+        """The largest of each force and each balancing moment of a motion by name, with its place and the root mean
+        square of all, as the JSON of `graphplan cycle` has it."""
+        loads = LargestLoads(self.scene)
+        if self.poses is not None:
+            loads.add(self.poses.turn.travel, self.results)
+        return loads.data.get(LARGEST, {})
 
     def table(self, *names: str) -> dict[str, Any]:
         """Columns by name, each of shape (n,), as pandas.DataFrame takes them: `travel`, and of points, links and

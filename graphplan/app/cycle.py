@@ -112,7 +112,7 @@ def run(options: argparse.Namespace) -> int:
         write(_csv(cycles[0]), options.output)
     if options.plot:
         write(plot_file(options, members, cycles, plot_ending), options.plot)
-    return max(report.tell(messages) for report in reports)
+    return max(report.tell(messages, member.label) for member, report in zip(members, reports, strict=True))
 
 
 def _paths(options: argparse.Namespace) -> str:
@@ -151,15 +151,21 @@ class MotionReport:
     """Remarks on a motion's poses, block by block; equal ones in one line."""
 
     def __init__(self, scene: Scene, positions: int):
+        from graphplan.output.tables import LargestLoads
+
         self.scene, self.positions, self.done, self.failures = scene, positions, 0, 0
         self.wrong, self.check = list[int](), dict[str, float]()
         self.faults, self.otherwise = list[NotedPoses](), list[NotedPoses]()
+        self.largest, self.locked = LargestLoads(scene), list[int]()
 
     def add(self, block: Cycle) -> None:
         """Take in the next block."""
         self.wrong += [self.done + k for k in block.wrong]
         self.failures += len(block.faults)
         self.check = {kind: max(gap, self.check.get(kind, 0.0)) for kind, gap in block.check.items()}
+        self.largest.add(block.turn.travel, block.results)
+        if block.efficiency is not None:
+            self.locked += [self.done + int(k) for k in (block.efficiency < 0).nonzero()[0]]
         _add_notes(self.faults, block.faults, self.done)
         _add_notes(self.otherwise, {k: f"drawn by {how}" for k, how in block.otherwise.items()}, self.done)
         self.done += len(block.turn.travel)
@@ -206,7 +212,7 @@ class MotionReport:
                 if not start:  # there is a temporary file of the same size
                     refuse_without_room(path, 2 * table.spool.size * self.positions // self.done, "fewer --positions")
             if not self.wrong:
-                yield from table.parts(motion_results(self.scene))
+                yield from table.parts(motion_results(self.scene) | self.largest.data)
 
     def _blocks_until_wrong(self, blocks: Iterator[Cycle]) -> Iterator[tuple[int, Cycle]]:
         """Yield the blocks with their first poses, up to a wrong one."""
@@ -222,16 +228,22 @@ class MotionReport:
             error(f"pose {k}: the construction and the analytic solver disagree")
         return 1
 
-    def tell(self, messages: Messages) -> int:
-        """Say it on standard error; the command's exit status."""
+    def tell(self, messages: Messages, label: str = "") -> int:
+        """Say it on standard error, under the label of a member of a family; the command's exit status."""
         from graphplan.cycle.swings import motion_remarks
 
+        if label:
+            messages.remark(f"{label}:")
         say = error if self.failures == self.positions else messages.remark
         for first, last, note in (*self.faults, *self.otherwise):
             say(f"pose {first}: {note}" if first == last else f"poses {first} to {last} ({last - first + 1}): {note}")
         checked = ", ".join(f"{kind} {gap:.2g}" for kind, gap in self.check.items())
-        for line in motion_remarks(self.scene):
+        for line in (*motion_remarks(self.scene), *self.largest.remarks()):
             messages.remark(line)
+        if self.locked:
+            messages.remark(f"the efficiency is negative in {len(self.locked)} of {self.positions} poses, such as pose "
+                            f"{self.locked[0]}: there the loads drive, but do not overcome the friction, so that the "
+                            "machine stands without its drive")
         messages.remark(f"{self.positions - self.failures} of {self.positions} poses; "
                         f"largest difference from the analytic solver: {checked}")
         return NOTHING_REACHED if self.failures == self.positions else 0

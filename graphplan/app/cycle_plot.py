@@ -148,7 +148,7 @@ def chosen_quantities(scene: Scene, quantities: Mapping[str, TableQuantity], nam
     for name in names:
         members = groups.get(name) or [name]
         if members[0] not in quantities:
-            raise _unknown(name, [*groups, *quantities])
+            raise _without_loads(scene, name) or _unknown(name, [*groups, *quantities])
         for member in members:
             quantity = quantities[member]
             if polar and not quantity.is_vector:
@@ -157,6 +157,21 @@ def chosen_quantities(scene: Scene, quantities: Mapping[str, TableQuantity], nam
                               f"such as {_nearest_name(name, vectors)}, or leave out --polar")
             chosen[member] = quantity
     return [*chosen.values()]
+
+
+def _without_loads(scene: Scene, name: str) -> Refused | None:
+    """Return why there is no efficiency, balance or reaction, where the scene lacks what gives it."""
+    loads = scene.loads
+    if name.partition(" ")[0] not in ("efficiency", "balance", "reaction") or (
+            loads and (name != "efficiency" or (loads.frictions and loads.balances))):
+        return None
+    if loads is None:
+        why, remedy = "no load stands in the scene, so no forces are found", "[[forces]] or [masses] with a [balance]"
+    elif not loads.balances:
+        why, remedy = "nothing balances the loads, so no power is put in", "a [balance] in the scene"
+    else:
+        why, remedy = "the machine has no friction, so all power put in comes out", "a [[friction]] in the scene"
+    return Refused(f"--of {_in_quotes(name)}", why, remedy)
 
 
 def _unknown(name: str, names: Sequence[str]) -> Refused:

@@ -216,7 +216,7 @@ def driven_by_gears(scene: Scene, shifts: tuple[Fraction, ...]) -> tuple[Scene, 
     if not plain or any(name and name not in turns for row in rows for name in row):
         raise Refused(f"{scene.name}: the pose",
                       said("no construction is known for the positions of these gears or contacts"),
-                      "the pose as it is given")
+                      "the pose as it is given; graphplan cycle has its numbers in all poses")
     without_gears = replace(scene, written=tuple(pair for pair in scene.written if pair not in scene.gears),
                             repetitions={})
     return (without_gears.with_drives((*scene.drives, *more)),

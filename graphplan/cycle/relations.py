@@ -25,7 +25,7 @@ from graphplan.cycle.dyads import PlacedLink, assemble_dyad
 from graphplan.cycle.groups import ClosureGroup
 from graphplan.cycle.linkage import Linkage, contact_point, pin_given_motions
 from graphplan.cycle.tolerances import PIN_TOL, RELATION_TOL
-from graphplan.cycle.turn import RangeOfMotion, points_under_slides, range_of_motion
+from graphplan.cycle.turn import RangeOfMotion, points_under_slides, range_of_motion, travelling_contacts
 from graphplan.errors import GraphplanError
 from graphplan.kernel.kinds import Movement, made_by
 from graphplan.kernel.tape.record import MAX_NESTING, Language, Symbol, Symbols, Writer, function
@@ -380,8 +380,8 @@ class Relations:
             at = self._ground.pins[name] if carrier == FRAME else self.placed[carrier].point(place)
             points[name] = at.re, at.im
         points |= {name: points[at] for name, at in points_under_slides(self.scene).items()}
-        return points | {contact.at: self._touching(contact, points) for contact in self.scene.contacts
-                         if not self.scene.links_of[contact.at]}
+        return points | {at: self._touching(contact, points)
+                         for at, contact in travelling_contacts(self.scene).items()}
 
     def _touching(self, contact: Contact, points: Mapping[str, Spot]) -> Spot:
         """Contact point of two profiles."""

@@ -23,7 +23,7 @@ from graphplan.cycle.tolerances import RETURN_TOL
 from graphplan.cycle.travel import Travels, check_drives, drives_return, travels
 from graphplan.errors import Refused
 from graphplan.kernel.numbers.arrays import distinct_values
-from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.model import FRAME, Contact, Scene
 from graphplan.mechanism.replaced import guides
 from graphplan.mechanism.travel import TURN, paces, travel_text, travel_unit
 from graphplan.methods.motion.network import Network
@@ -144,8 +144,8 @@ class RangeOfMotion:
         directions = {name: number(*guide.direction) * turns[name] for name, guide in moving.items()
                       if guide.through is None}
         points |= {name: points[at] for name, at in points_under_slides(scene).items()}
-        points |= {contact.at: contact_point(scene, contact, points, turns.get(contact.name, 1.0))
-                   for contact in scene.contacts if not scene.links_of[contact.at]}
+        points |= {at: contact_point(scene, contact, points, turns.get(contact.name, 1.0))
+                   for at, contact in travelling_contacts(scene).items()}
         back = self.closed and self.path.upper is None and self.returns_at(self.ends[1])
         return Turn(travel, points, directions, course.faults(placing.failures), back, self)
 
@@ -177,15 +177,32 @@ def points_under_slides(scene: Scene) -> dict[str, str]:
 
     A point is its link's own where another link has it too, where a load, another slide or its direction needs it.
     """
-    loads = scene.loads
-    own_points = {slide.at for slide in scene.slides}
-    if loads:
-        own_points |= {*(mass.centre for mass in loads.masses.values()), *(force.at for force in loads.forces),
-                       *(balance.at for balance in loads.balances)}
+    own_points = {slide.at for slide in scene.slides} | _loaded_points(scene)
     net = Network(scene)
     pairs = {name: at for name, at in net.shared_marks.items() if name not in net.names}
     return {name: at for name, at in pairs.items() if name not in own_points and len(scene.links_of[name]) == 1
             and all(slide.at == at for slide in scene.slides if slide.through and name in slide.through)}
+
+
+def travelling_contacts(scene: Scene) -> dict[str, Contact]:
+    """The contacts by the points that travel with them: those of no link, and all where profiles roll.
+
+    Fails with `Refused` where profiles roll at a point that something else needs on its link.
+    """
+    travelling = {contact.at: contact for contact in scene.contacts
+                  if contact.rolling or not scene.links_of[contact.at]}
+    for at, contact in travelling.items():
+        if len(scene.links_of[at]) > 1 or at in _loaded_points(scene):
+            raise Refused(f"contact {contact.name}", f"{at} travels with it, and is a joint or bears a load besides",
+                          "another point of the link for these, in the same place")
+    return travelling
+
+
+def _loaded_points(scene: Scene) -> set[str]:
+    """The points of links at which masses are centred, and forces act or balance."""
+    loads = scene.loads
+    return {*(mass.centre for mass in loads.masses.values()), *(force.at for force in loads.forces),
+            *(balance.at for balance in loads.balances)} if loads else set()
 
 
 # ---- which poses the path leads to -----------------------------------------------------------------------------------

@@ -11,15 +11,16 @@ import math
 import tempfile
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import IO, Any, NamedTuple
 
 import numpy as np
 
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.travel import printed_travels
-from graphplan.mechanism.units import FORCE, LENGTH
+from graphplan.mechanism.units import FORCE, LENGTH, MOMENT
 from graphplan.methods import kinds
-from graphplan.methods.results import axes, facts, forces, pair_forces
+from graphplan.methods.results import axes, balances, facts, forces, pair_forces
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 
 ROWS = 4096  # written in one call
@@ -181,29 +182,77 @@ def direction(z: Any) -> Any:
     return np.degrees(np.angle(z + 0.0))
 
 
-class Largest(NamedTuple):
-    """The largest size of a force over the poses, its direction there, and the pose with its place and its travel."""
+@dataclass(frozen=True)
+class Largest:
+    """The largest of a force (complex) or a balancing moment over the poses that are known, the pose by its place and
+    its travel, and the root mean square of all, of which `squares` is the sum over `count` poses."""
 
-    size: float
-    direction: float
+    value: Any
     pose: int
     travel: float
+    squares: float
+    count: int
+
+    @property
+    def rms(self) -> float:
+        return math.sqrt(self.squares / self.count)
+
+    def joined(self, other: Largest) -> Largest:
+        """The same of these poses and of others after them."""
+        larger = max(self, other, key=lambda one: abs(one.value))
+        return replace(larger, squares=self.squares + other.squares, count=self.count + other.count)
+
+    @property
+    def data(self) -> dict[str, float]:
+        """JSON: of a force its `size` and `direction`, of a moment its `value`; `pose`, `travel` and `rms`."""
+        sized = {SIZE: abs(self.value), DIRECTION: float(direction(self.value))} if isinstance(
+            self.value, complex) else {VALUE: self.value}
+        return {**sized, "pose": self.pose, TRAVEL: self.travel, "rms": self.rms}
 
 
-def largest_forces(sizes: Mapping[str, Any], travel: Any, start: int = 0) -> dict[str, Largest]:
-    """Return the largest of each force, of those that are known in any pose, the first of which has the place `start`.
-    """
-    largest = dict[str, Largest]()
-    for name, force in sizes.items():
-        if np.isfinite(force).any():
-            pose = int(np.nanargmax(np.abs(force)))
-            largest[name] = Largest(float(np.abs(force[pose])), float(direction(force[pose])), start + pose,
-                                  float(travel[pose]))
-    return largest
+class LargestLoads:
+    """The largest of each force and each balancing moment, over poses that come block by block."""
+
+    def __init__(self, scene: Scene):
+        self.scene, self.by_name, self.poses = scene, dict[str, Largest](), 0
+
+    def add(self, travel: Any, results: Results) -> None:
+        """Take in the next block."""
+        travels = printed_travel(self.scene, travel)[1]
+        for name, values in {**forces(self.scene, results), **balancing_moments(self.scene, results)}.items():
+            sizes = np.abs(values)
+            if np.isfinite(sizes).any():
+                k = int(np.nanargmax(sizes))
+                largest = Largest(values[k].item(), self.poses + k, float(travels[k]), float(np.nansum(sizes**2)),
+                                  int(np.isfinite(sizes).sum()))
+                self.by_name[name] = self.by_name[name].joined(largest) if name in self.by_name else largest
+        self.poses += len(travels)
+
+    @property
+    def data(self) -> dict[str, dict[str, dict[str, float]]]:
+        """JSON: all of them by name as `largest`, where there are any."""
+        return {LARGEST: {name: largest.data for name, largest in self.by_name.items()}} if self.by_name else {}
+
+    def remarks(self) -> Iterator[str]:
+        """Yield a line for each: its largest value with its place, and the root mean square."""
+        gone = printed_travel(self.scene, np.zeros(1))[0]
+        place = "°" if gone == "deg" else f" {gone}"
+        for name, largest in self.by_name.items():
+            value, of = (abs(largest.value), FORCE) if isinstance(largest.value, complex) else (largest.value, MOMENT)
+            measure = of.sheet_unit(self.scene.units)
+            yield (f"{name}: largest {value:.4g} {measure} at {largest.travel:.5g}{place}, "
+                   f"root mean square {largest.rms:.4g} {measure}")
+
+
+def balancing_moments(scene: Scene, results: Results) -> dict[str, Any]:
+    """Return the balances among results that are moments, by names such as `balance 1`, with friction where there is
+    any."""
+    by_name = balances(scene, results, (kinds.RUBBED, kinds.BY_PLANS, kinds.BY_LEVER))
+    return {f"balance {name}": moment for name, moment in by_name.items() if not np.iscomplexobj(moment)}
 
 
 TRAVEL, FAULTS, EFFICIENCY, LARGEST = "travel", "faults", "efficiency", "largest"
-SIZE, DIRECTION = "size", "direction"  # of forces
+SIZE, DIRECTION, VALUE = "size", "direction", "value"  # of forces, and of moments
 FULL_TURN = 360.0  # degrees
 READ_BYTES = 1 << 20  # of a file that is sent on, at once
 
@@ -233,21 +282,17 @@ class ColumnSpool:
 
 class JsonTable:
     """JSON: `travel`, `points` and each kind of result by name as lists, vectors as [x, y]; null where there is none;
-    of forces `size` and `direction`, and `largest` with its place; `efficiency`.
+    of forces `size` and `direction`; `efficiency`; and what holds for the whole motion.
     """
 
     def __init__(self, scene: Scene, folder: str):
         self.scene, self.spool = scene, ColumnSpool(folder)
-        self.largest, self.count = dict[str, Largest](), 0
 
     def add(self, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str],
             efficiency: Any = None) -> None:
         """Take in a block, whose faults are by the place among all poses."""
-        travels, of_forces = printed_travel(self.scene, travel)[1], forces(self.scene, results)
-        for name, largest in largest_forces(of_forces, travels, self.count).items():
-            self.largest[name] = max(largest, self.largest.get(name, largest), key=lambda one: one.size)
-        self.count += len(travel)
-        results = {**results, **sizes_and_directions(of_forces)}
+        travels, results = printed_travel(self.scene, travel)[1], {
+            **results, **sizes_and_directions(forces(self.scene, results))}
         self.spool.add((TRAVEL, ""), _json(travels.tolist())[1:-1])
         if efficiency is not None:
             self.spool.add((EFFICIENCY, ""), _json([*_numbers_of(efficiency)])[1:-1])
@@ -258,7 +303,8 @@ class JsonTable:
 
     def parts(self, motion: Mapping[str, Any]) -> Iterator[bytes]:
         """The file, column after column: what holds one is written as empty, and cut where the column stands in it."""
-        units = {"length": self.scene.units.length, "travel": printed_travel(self.scene, np.zeros(1))[0]}
+        units = {"length": self.scene.units.length, "travel": printed_travel(self.scene, np.zeros(1))[0],
+                 **({"force": self.scene.units.force} if self.scene.loads else {})}
         yield _json({"title": self.scene.title, "units": units, TRAVEL: []})[:-2]
         yield from self._joined(TRAVEL, "")
         yield b"]"
@@ -277,8 +323,7 @@ class JsonTable:
             yield b", " + _json({EFFICIENCY: []})[1:-2]
             yield from self._joined(EFFICIENCY, "")
             yield b"]"
-        largest = {name: one._asdict() for name, one in self.largest.items()}
-        yield b", " + _json({**motion, **({LARGEST: largest} if largest else {}), FAULTS: {}})[1:-2]
+        yield b", " + _json({**motion, FAULTS: {}})[1:-2]
         yield from self._joined(FAULTS, "")
         yield b"}}\n"
 

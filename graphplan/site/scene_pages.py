@@ -112,7 +112,7 @@ TOPICS: dict[Said, str] = {
         "jaanimets-10 jaanimets-11 ozols-9-1 ozols-10-1 ozols-10-2 kinytskyi triad-loaded class-four-loaded "
         "rosenauer-loaded walschaerts-loaded",
     said("Machines over their cycle"):
-        "ozols-13-6 ozols-13-7 ozols-16-1",
+        "quick-return ozols-13-6 ozols-13-7 ozols-16-1",
     said("Mechanisms that are found"):
         "guidance-moving guidance-fixed guidance-22-8 function-rocker function-slide stroke-slider-crank "
         "stroke-crank-rocker stroke-lever cognates-four-bar dwell-output geneva-19-1 conjugate-pin gear-21-1",

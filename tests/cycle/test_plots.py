@@ -87,7 +87,20 @@ def test_sizes_and_directions_are_those_of_the_vectors(tmp_path: Path) -> None:
         largest = data["largest"][name]
         assert largest["size"] == max(data["size"][name]) == data["size"][name][largest["pose"]]
         assert largest["travel"] == data["travel"][largest["pose"]]
+        assert largest["rms"] == pytest.approx(np.sqrt(np.mean(abs(z) ** 2)))
+    moments, largest = data["balance moment with friction"]["1"], data["largest"]["balance 1"]
+    assert abs(largest["value"]) == max(map(abs, moments))
+    assert largest["value"] == moments[largest["pose"]]
+    assert largest["rms"] == pytest.approx(np.sqrt(np.mean(np.square(moments))))
     assert data["efficiency"][0] == pytest.approx(ran("solve", "kinytskyi").json["friction"]["efficiency"], rel=1e-9)
+
+
+def test_the_largest_forces_and_a_negative_efficiency_are_told() -> None:
+    """On standard error, each with its place; a family says of which value."""
+    told = ran("cycle", "kinytskyi", "--positions", "36").err
+    assert "2 at A: largest 278.2 N at 120°, root mean square 143.1 N" in told
+    assert "balance 1: largest 12.55 N·m at 20°, root mean square 4.285 N·m" in told
+    assert "the efficiency is negative in 10 of 36 poses, such as pose 6: there the loads drive" in told
 
 
 def test_a_balancing_force_has_the_efficiency_of_solve(tmp_path: Path) -> None:
@@ -104,7 +117,9 @@ def test_names_are_the_same_in_every_face(tmp_path: Path) -> None:
     data = json_table(tmp_path, "kinytskyi")
     rows = [*csv.DictReader(io.StringIO(ran("cycle", "kinytskyi", "--positions", "36", "-q").out))]
     scene = gp.load("kinytskyi")
-    columns = gp.construct(scene).evaluate(gp.follow(scene, 36)).table()
+    motion = gp.construct(scene).evaluate(gp.follow(scene, 36))
+    columns = motion.table()
+    assert motion.largest == {name: pytest.approx(values) for name, values in data["largest"].items()}
     assert ran("cycle", "kinytskyi", "--positions", "36", "-q", "-o", tmp_path / "turn.npz").status == 0
     with np.load(tmp_path / "turn.npz") as arrays:
         for name, sizes in data["size"].items():
@@ -123,6 +138,17 @@ def test_no_two_columns_have_one_heading() -> None:
     x, y, size = (float(rows[1][rows[0].index(f"2 at A.{part} [N]")]) for part in ("Fx", "Fy", "size"))
     assert size == pytest.approx(math.hypot(x, y))
     assert x != float(rows[1][rows[0].index("without friction 2 at A.Fx [N]")])
+
+
+def test_the_largest_are_those_of_all_blocks(tmp_path: Path) -> None:
+    """A table that is written block by block has the largest of all poses, with the place among all."""
+    done = ran("cycle", "jaanimets-10", "--positions", "2500", "-q", "-o", tmp_path / "turn.json")
+    data = json.loads((tmp_path / "turn.json").read_text(encoding="utf-8"))
+    sizes = np.array(data["size"]["3 at A"], dtype=float)
+    largest = data["largest"]["3 at A"]
+    assert done.status == 0
+    assert largest["pose"] == np.nanargmax(sizes) > 1024
+    assert largest["rms"] == pytest.approx(np.sqrt(np.nanmean(sizes**2)))
 
 
 def test_a_family_has_a_curve_for_each_value(tmp_path: Path) -> None:

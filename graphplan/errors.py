@@ -52,7 +52,7 @@ class GraphplanError(Exception):
         return (str(self),)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """As a worker sends it: made again from its text and what it knows, not from the arguments of its class."""
+        """Pickle the error by its text and attributes, as worker processes send it."""
         return copyreg.__newobj__, (type(self), *self.args), self.__dict__  # type: ignore[attr-defined]
 
 

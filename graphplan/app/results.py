@@ -142,7 +142,7 @@ def solve(scene: Scene, *, exact: bool = False, digits: int | None = None, bound
 
 def find_results(scene: Scene, options: Options, *, exact: bool = False, digits: int | None = None,
                  bounds: bool = False) -> Results:
-    """Solve a scene, with the options in one record."""
+    """Solve a scene with these options."""
     from graphplan.app.drafting import with_rounds
 
     scene = with_rounds(scene, options)

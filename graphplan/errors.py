@@ -83,6 +83,12 @@ class Refused(GraphplanError):
         return self if self.what.startswith(("-", name)) else Refused(f"{name}: {self.what}", self.why, self.do)
 
 
+def missing_package(where: str, package: str | None, extra: str, instead: str = "") -> Refused:
+    """The refusal of a request that needs a package which is not installed, with the command that installs it."""
+    remedy = f"pip install 'graphplan[{extra}]'"
+    return Refused(where, f"{package} is not installed", f"{remedy}, or {instead}" if instead else remedy)
+
+
 class SingularPose(GraphplanError):
     """A pose in which what was asked does not exist: the links, and the lines that should meet and don't."""
 

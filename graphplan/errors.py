@@ -52,7 +52,7 @@ class GraphplanError(Exception):
         return (str(self),)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """As a worker sends it: made again from its text and what it knows, not from the arguments of its class."""
+        """Pickle the error by its text and attributes, as worker processes send it."""
         return copyreg.__newobj__, (type(self), *self.args), self.__dict__  # type: ignore[attr-defined]
 
 
@@ -81,6 +81,12 @@ class Refused(GraphplanError):
     def in_file(self, name: str) -> Refused:
         """The same with the file in front, where it is neither told already nor is it an option that is refused."""
         return self if self.what.startswith(("-", name)) else Refused(f"{name}: {self.what}", self.why, self.do)
+
+
+def missing_package(where: str, package: str | None, extra: str, instead: str = "") -> Refused:
+    """The refusal of a request that needs a package which is not installed, with the command that installs it."""
+    remedy = f"pip install 'graphplan[{extra}]'"
+    return Refused(where, f"{package} is not installed", f"{remedy}, or {instead}" if instead else remedy)
 
 
 class SingularPose(GraphplanError):

@@ -97,7 +97,7 @@ class Unknown(ABC):
 
     @abstractmethod
     def level(self, kinds: str, numbers: Sequence[Any]) -> Any:
-        """At which level a sum of numbers of these kinds holds as printed (sheet/words/sums.py)."""
+        """The level of rounding at which a sum of numbers of these kinds holds as printed (sheet/words/sums.py)."""
 
     @abstractmethod
     def result(self, kinds: str, numbers: Sequence[Any]) -> Any:

@@ -245,7 +245,7 @@ class Comparison:
         return {"cost": draft.cost.data, "pencil": draft.data, **hands}
 
     def _cost_row(self, name: str, draft: Drafted) -> tuple[str, ...]:
-        """One form's row of counts."""
+        """Return the row of a form in the table of operations."""
         cost, counts = draft.cost, draft.cost.counts
         pair = ((counts.simplicity, counts.exactitude) if self.strict
                 else (counts.others.get(SET_SQUARES, 0), counts.others.get(DIVIDERS, 0)))

@@ -51,7 +51,7 @@ class ReachablePoses(NamedTuple):
         return len(next(iter(self.points.values())))
 
     def pose(self, k: int) -> tuple[dict[str, complex], dict[str, complex]]:
-        """One of them."""
+        """Points and guides of pose k, by name."""
         return ({name: complex(z[k]) for name, z in self.points.items()},
                 {name: complex(z[k]) for name, z in self.guides.items()})
 
@@ -147,7 +147,7 @@ def _poses_with_true_marks(drawing: Construction, poses: ReachablePoses, values:
 
 
 def _wanted_points(program: Program, poses: ReachablePoses, places: Any) -> list[tuple[Array, Array]]:
-    """Some points of a program in all poses."""
+    """Coordinates of the steps at `places` that make points, in all poses: pairs of arrays of shape (n,)."""
     with np.errstate(all="ignore"):
         values = evaluate(program, Arrays(), _inputs(program, poses))
     full = np.zeros(len(poses))

@@ -1,7 +1,7 @@
 """Draw the construction sheet, as SVG, PDF, PNG or DXF.
 
-A PDF has the sheet in true size; a DXF (install graphplan[dxf]) the mechanism 1:1, the sheet on layouts, and each step
-on a layer. Words for which there is no room beside the plans stand on further pages, or in files such as
+A PDF has the sheet in true size. A DXF has the mechanism 1:1, the sheet on layouts, and each step on a layer; it needs
+pip install 'graphplan[dxf]'. Words that do not fit beside the plans stand on further pages, or in files such as
 SHEET-protocol.svg; standard output has the first page alone.
 
 examples:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 
 from graphplan.app.drafting import Keywords, make_report, pencil, wishes_of, with_sheet
 from graphplan.app.files import as_json, kind, write
-from graphplan.errors import Refused
+from graphplan.errors import Refused, missing_package
 from graphplan.mechanism.model import Frozen, NamedValues
 from graphplan.methods import kinds
 from graphplan.methods.kinds import kind_of
@@ -177,7 +177,7 @@ def _certified_data(scene: Scene, digits: int, exact: bool) -> dict[str, Any]:
     if exact:
         raise Refused("--digits", "--exact already gives every digit", "leave out one of the two")
     if not has_flint():
-        raise Refused("--digits", "proven digits need python-flint", "install graphplan[certified]")
+        raise missing_package("--digits", "python-flint", "certified")
     from graphplan.check.answerable import report_regular_part
     from graphplan.check.certified import Certified, certify
 

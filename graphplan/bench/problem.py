@@ -21,7 +21,7 @@ from graphplan.check.arithmetics import Exact, enclosures
 from graphplan.check.compared import UNBOUNDED
 from graphplan.check.forces import force_truth
 from graphplan.check.report import ReferenceSolution, reference_solution
-from graphplan.errors import Refused
+from graphplan.errors import Refused, missing_package
 from graphplan.kernel.faithful import has_flint
 from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.model import Find, Pair, Scene
@@ -364,7 +364,7 @@ def _in_blocks(machine: bool, problem: Problem, drawing: Construction) -> TimedR
 def _run_enclosures(digits: int, problem: Problem, drawing: Construction) -> TimedRun:
     """The rules between proven bounds, to so many digits."""
     if not has_flint():
-        raise Refused("enclosures", "python-flint is not installed", "pip install 'graphplan[certified]'")
+        raise missing_package("enclosures", "python-flint", "certified")
     from graphplan.kernel.numbers.enclosures import Enclosures, precision
 
     coordinates, bits = _given_coordinates(drawing, problem.sampled_points), ceil(digits * log2(10)) + SPARE_BITS

@@ -171,7 +171,7 @@ def _or_none(find: Callable[[], ReferenceSolution]) -> ReferenceSolution | None:
 
 
 def form_of(drawing: Construction) -> str:
-    """In which form a construction is drawn, by what its pose decides: its loci, its forces, or its plans."""
+    """The form of a construction that its pose decides: that of its loci, of its forces, or of its plans."""
     method = drawing.method
     if drawing.ways or any(step.choice and step.choice.compound.weighed for step in drawing.drawn.steps):
         return method[VELOCITY][0]

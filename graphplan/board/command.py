@@ -20,7 +20,7 @@ import sys
 
 from graphplan.app.choices import count
 from graphplan.app.files import kind
-from graphplan.errors import Refused
+from graphplan.errors import Refused, missing_package
 from graphplan.mechanism.scene import packaged_names, source_text
 
 HOST = "127.0.0.1"
@@ -42,7 +42,7 @@ def run(options: argparse.Namespace) -> int:
 
         from graphplan.board.server import BoardState, application
     except ModuleNotFoundError as missing:
-        raise Refused("graphplan board", f"{missing.name} is not installed", "pip install 'graphplan[board]'") from None
+        raise missing_package("graphplan board", missing.name, "board") from None
     token = secrets.token_urlsafe(24)
     text, file = _start(options.scene)
     board = BoardState(token, text, options.scene or "scene", file)

@@ -147,7 +147,7 @@ def solve_rates(rows: Sequence[dict[int, Fraction]], right: Sequence[Fraction]) 
 
 
 def whole_stage(*powers: int, waves: Sequence[Wave] = ()) -> tuple[MotionPiece, ...]:
-    """One piece over the whole stage."""
+    """A law of one piece over the whole stage, from coefficients of powers and waves."""
     return (MotionPiece(Fraction(0), Fraction(1), tuple(map(Fraction, powers)), tuple(waves)),)
 
 

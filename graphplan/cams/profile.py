@@ -457,7 +457,7 @@ class LoadedCam:
         return (at, most) if most >= depth else (foot, -depth)
 
     def force_named(self, name: str, angles: Any, one: LawPiece) -> Any:
-        """One of the forces at angles on a piece of the law."""
+        """The force of this name at angles of the cam on a piece of the law."""
         return getattr(self.forces(angles, one), name)
 
     @property

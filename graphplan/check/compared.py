@@ -127,7 +127,7 @@ def _compare_vector(ours: tuple[Any, ...], theirs: tuple[Any, ...], least: float
 
 
 def _compare_number(ours: Any, theirs: Any, scale: float) -> ComparedNumber:
-    """One number, whatever it is made of."""
+    """Compare a drawn number with the solver's, in any number domain."""
     if isinstance(theirs, Bounded):
         most = abs(theirs.value) + theirs.error
         if most <= PROVEN_ZERO * scale and abs(ours) <= ROUNDING_TOL * scale:  # proven to be zero, and drawn so

@@ -72,7 +72,7 @@ class PoseBatch:
         return PoseBatch(self.scene, self.places[kept], *arrays)
 
     def of_part(self, scene: Scene) -> PoseBatch:
-        """These poses of a part of the mechanism, with its own points, guides and loads."""
+        """The same poses for a part of the mechanism, with its own points, guides and loads."""
         names_of_part = [*scene.points], [*guides(scene)], [*changing_loads(scene.loads)]
         arrays = ({name: array for name, array in named.items() if name in names}
                   for names, named in zip(names_of_part, (self.points, self.guides, self.loads), strict=True))
@@ -190,7 +190,7 @@ def _contact_size(scene: Scene, truth: Readings, kind: str, name: str) -> Any:
 
 
 def sound_poses(batch: PoseBatch, drawing: Construction, results: Readings, apart: Mapping[str, Any]) -> Any:
-    """In which poses the results are there, and differ from the solver's by no more than rounding.
+    """Flags of the poses whose results exist and agree with the solver's within rounding, shape (n,).
 
     Where that is proven of a pose, `apart` has the differences relative to what is proven to cancel there.
     """
@@ -207,8 +207,9 @@ def sound_poses(batch: PoseBatch, drawing: Construction, results: Readings, apar
 
 
 def poses_rubbed_as_drawn(batch: PoseBatch, drawing: Construction) -> Any:
-    """In which poses friction is as it is drawn: no pair moves that stands still in the drawing, and slides that bear
-    on a length are pressed at the same edges, as the solver decides it."""
+    """Flags of the poses whose friction acts as drawn, shape (n,): no pair moves that stands still in the drawing, and
+    the solver presses slides that bear on a length at the same edges.
+    """
     given, drawn = batch.scene.loads, drawing.scene.loads
     if given is None or drawn is None or given.pressed is None or drawn.pressed is None:
         return np.full(batch.places.size, (given and given.pressed) == (drawn and drawn.pressed))

@@ -263,7 +263,7 @@ class Bench:
         if self._singular is not None:
             return SingularPose(self._singular.why, self._singular.links, self._lines_that_miss(drawing, Floats()))
         return Refused("the pose", "it is too close to a singular pose for floats",
-                       "install graphplan[certified], or give its points as coordinates")
+                       "pip install 'graphplan[certified]', or give its points as coordinates")
 
     def _lines_that_miss(self, drawing: Construction | None, domain: Domain) -> str:
         """The lines of a construction, or of the first way, that should meet and do not; empty if no construction is

@@ -157,7 +157,7 @@ class HigherBond:
 
     @property
     def condition(self) -> Condition:
-        """The statement by its name."""
+        """The condition of this bond, as statements of kinematic pairs name theirs."""
         return Condition(self.link, self.on, self.way, self.name)
 
 
@@ -240,7 +240,7 @@ def contact_point(scene: Scene, contact: Contact, points: Mapping[str, Any], tur
 
 
 def contact_fraction(scene: Scene, contact: Contact) -> float:
-    """By which part of the way from the first centre to the second two arcs touch."""
+    """Position of the point of contact of two arcs on their line of centres: 0 at the first centre, 1 at the second."""
     at, first, second = (complex(*map(float, scene.points[name or ""])) for name in (contact.at, *contact.centres))
     return ((at - first) / (second - first)).real
 

@@ -127,7 +127,7 @@ class PosePlacer:
         self.failures += [(failure, at[missing]) for failure, missing in failures]
 
     def _follow_block(self, path: Path, travel: Array, at: Array, runs: Sequence[closure.TapeRun | None]) -> None:
-        """One block."""
+        """Follow the poses of one block of travels."""
         state, lengths = path.predict_states(travel)
         bodies = {FRAME: LinkPose()}
         for i, group in enumerate(self.groups):
@@ -330,7 +330,7 @@ class Limit(NamedTuple):
 
     @property
     def kind(self) -> str:
-        """Name of the kind of such a pose."""
+        """The name of this kind of limit: change point, or limit position."""
         return "change point" if self.change else "limit position"
 
 
@@ -401,7 +401,8 @@ class Continuation:
             afford("the cycle", (upper - lower) / unit, name, KNOT_BYTES * len(linkage.links) * unit / self.longest)
 
     def path(self, closed: bool) -> Path:
-        """As far as it leads, from `lower` to `upper`; round the other way too, where the cycle is closed."""
+        """Follow the linkage from the given pose to `upper` and to `lower`; in a closed cycle also around the other
+        way."""
         still = np.zeros(self._angle.size)
         start = self._solve_knot(0.0, still, math.inf)
         if isinstance(start, int):  # this group is singular, and the pose leads nowhere

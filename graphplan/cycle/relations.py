@@ -196,7 +196,7 @@ def _product(one: Any, two: Any) -> Any:
 
 
 def planar(number: Any) -> Planar:
-    """Any number, or pair of them, as a complex one."""
+    """Convert a number, or a pair of coordinates, to `Planar`."""
     if isinstance(number, Planar):
         return number
     return Planar(*number) if isinstance(number, tuple) else Planar(float(number.real), float(number.imag))

@@ -209,7 +209,7 @@ def slide_ends(scene: Scene, slide: Slide) -> tuple[float, float]:
 
 
 def _largest(values: Callable[[Any], Any], ends: tuple[float, float]) -> tuple[float, float]:
-    """At which travel between the ends a quantity is largest, and how large."""
+    """The travel between the ends at which a quantity is largest, and its value there."""
     low, high = ends
     for _ in range(ROUNDS):
         travel = np.linspace(low, high, SAMPLES)

@@ -114,7 +114,7 @@ class SeenPencil:
 
     @property
     def record(self) -> dict[str, float]:
-        """As data, in mm and degrees."""
+        """Standard deviations by name, in mm and degrees, for JSON."""
         return {**self.pencil.model, "reading": self.reading, "marks": self.marks}
 
 

@@ -353,7 +353,7 @@ class _GeoGebraWriter(Elements):
         self.objects.text("value", text, stroke.pen, number=0, exp=f"Midpoint[{start}, {end}]")
 
     def _arc(self, arc: StruckArc) -> None:
-        """As much of a circle as serves its mark."""
+        """Add the arc of a circle around its mark."""
         centre, mark = f"Center[{self.names[arc.of]}]", self.names[arc.mark]
         turns = (f"Rotate[{mark}, {number(turn)}°, {centre}]" for turn in (-arc.before, arc.after))
         self.objects.add_shape("conicpart", "CircleArc", [centre, *turns], pens.ARC, CURVES)

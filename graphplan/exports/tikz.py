@@ -360,7 +360,7 @@ class TikzWriter(Walk):
 
 
 def _anchor(letter: Letter) -> tuple[str, Spot]:
-    """By which of its sides lettering hangs on its mark, and how far off that side is."""
+    """The TikZ anchor of a letter, and the offset of that side from its mark."""
     box, (x, y), middle = letter.text.box, letter.mark.spot, letter.off
     left, right, top = box.left - x, box.right - x, box.top - y
     if left > -MAX_OVERLAP_MM:

@@ -163,7 +163,7 @@ class _GeoGebraLinkage:
         return label in self.moving or any(name in self.moving for name in self._needs(label))
 
     def _made_of(self, labels: Iterable[str]) -> set[str]:
-        """These objects, and all that depend on them."""
+        """Labels of these objects and of all that depend on them."""
         labels_made, new = {*labels}, [*labels]
         while new:
             new += (further := self.dependents.get(new.pop(), set()) - labels_made)

@@ -16,7 +16,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
-from graphplan.errors import Refused, SceneError
+from graphplan.errors import Refused, SceneError, missing_package
 from graphplan.importing import linkage2, pmks
 from graphplan.importing.sketch import LinkageSketch
 from graphplan.importing.written import propose_scene
@@ -71,5 +71,5 @@ def _dxf(path: Path, data: bytes) -> LinkageSketch:
     try:
         from graphplan.importing import dxf
     except ModuleNotFoundError as missing:
-        raise Refused(f"{path}", f"{missing.name} is not installed", "pip install 'graphplan[dxf]'") from None
+        raise missing_package(f"{path}", missing.name, "dxf") from None
     return dxf.read(path, data)

@@ -219,7 +219,8 @@ def _dissimilarity(d: Drawn, P: int, Q: int) -> float:
 
 
 def _set_off(d: Drawn, l: int, P: int) -> float:
-    """As long as in the figure, and at the same angle with the line."""
+    """Relative error of the claim that the vector from P is as long as in the link's figure and at the same angle to
+    the line."""
     v, u = _figure(d)
     return abs(d[-1] - d[P] - v * unit(u).conjugate() * d.direction(l)) / (d.size + abs(v))
 

@@ -107,12 +107,12 @@ class FormBoard(Verbs):
         return "on" if ((q - p).conjugate() * (r - p)).real >= 0 else "back"
 
     def side_of(self, P: Mark, Q: Mark, R: Mark) -> str:
-        """On which side of the way from P to Q a point R lies."""
+        """The side, left or right, of the ray from P to Q on which R lies."""
         p, q, r = (complex(*self._expander.value(X)) for X in (P, Q, R))
         return "left" if ((q - p).conjugate() * (r - p)).imag >= 0 else "right"
 
     def side_of_line(self, l: Mark, P: Mark) -> str:
-        """On which side of a line, the way it runs, a point of its plan lies."""
+        """The side, left or right, of a directed line on which a point of its plan lies."""
         (x, y), (a, b, c) = self._expander.value(P), self._expander.value(l)
         return "left" if a * x + b * y + c >= 0 else "right"
 

@@ -270,7 +270,7 @@ class Telling:
             yield f"<tr><th>{html(row[0])}</th>{''.join(cells)}</tr>"
 
     def forms(self) -> Iterator[str]:
-        """By which methods and in which forms it is drawn, and why, as items of a list."""
+        """Items of a list in HTML: the methods and forms of the construction, with reasons."""
         drawing = self.plans.drawing
         for kind, methods in drawing.method.items():
             yield f"<li>{self.set(arrange('{0:capital}: {1}.', WORDS[kind], join(methods)))}</li>"

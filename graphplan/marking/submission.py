@@ -8,7 +8,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphplan.errors import Refused
+from graphplan.errors import Refused, missing_package
 from graphplan.marking.traces import Frames, Submission
 
 if TYPE_CHECKING:
@@ -69,8 +69,7 @@ def _read_image(path: Path, frames: Frames, printed: Callable[[], Sheet] | None,
         raise Refused(f"{path}", "a picture is read beside the sheet that was printed, and none is named",
                       "measured points or a CAD file")
     if not find_spec("cv2"):
-        raise Refused(f"{path}", "reading pictures needs OpenCV, which is not installed",
-                      "pip install 'graphplan[scan]'")
+        raise missing_package(f"{path}", "OpenCV", "scan")
     from graphplan.marking.scans.image import silence_stderr
     from graphplan.marking.scans.scan import read_scan
 
@@ -82,7 +81,7 @@ def _read_data_file(path: Path, suffix: str, panels: Collection[str], frames: Fr
     """A file of numbers or of a drawing program."""
     package, extra = READER_PACKAGES.get(suffix, ("", ""))
     if package and not find_spec(package):
-        raise Refused(f"{path}", f"reading {suffix[1:].upper()} needs {package}", f"pip install 'graphplan[{extra}]'")
+        raise missing_package(f"{path}", package, extra)
     match suffix:
         case ".csv":
             from graphplan.marking.files.tables import read_csv

@@ -100,7 +100,7 @@ class AnswerVerdict:
 
     @property
     def record(self) -> dict[str, Any]:
-        """As data."""
+        """The answer beside the true value, for JSON."""
         unit_size = self.expected.unit_size
         return {"quantity": self.expected.quantity, "of": self.expected.of, "unit": self.expected.written,
                 "answered": None if self.answered is None else self.answered / unit_size,
@@ -277,7 +277,7 @@ def is_same_file(one: str, other: str | Path) -> bool:
 
 
 def judge_file(desk: Desk, path: Path, listen: Listeners) -> Findings:
-    """One drawing, judged."""
+    """Judge one drawing."""
     from graphplan.marking.judge.findings import judgement_record
     from graphplan.marking.judge.overlay import overlay
 

@@ -537,8 +537,10 @@ Place = tuple[Decimal, Decimal]
 
 
 def fine_pose(scene: Scene) -> tuple[Scene, bool, dict[str, Place]]:
-    """A scene in its pose as it is written, unbalanced: points in reaches from the first one, directions of length 1;
-    and in which direction each moving link's joints are held."""
+    """The arguments of `System` for the equations in the scene's pose: decimals, in reaches from the first point.
+
+    They are the scene in these units, False (drives stand in it, not balances), and by link the unit vector across it.
+    """
     points = _points(scene)
     with localcontext(prec=POSE_DIGITS):
         first, *_ = points.values()

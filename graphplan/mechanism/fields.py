@@ -148,7 +148,7 @@ class SceneItem:
         return self.fault(f"{describe(self.value)} where {wanted} is wanted", instead)
 
     def choice(self, words: Collection[str]) -> str | None:
-        """One of a few words."""
+        """Return the value if it is one of these words; else record a fault."""
         if isinstance(self.value, str) and self.value in words:
             return self.value
         instead = suggestion(self.value, words, "word") if isinstance(self.value, str) else "one of " + ", ".join(words)
@@ -568,7 +568,7 @@ def centres_on(row: TableRow, *wanted: tuple[str, str]) -> bool:
 
 
 def choice(*words: str) -> Kind:
-    """One of these words."""
+    """The kind of a value that is one of these words."""
     return Kind(" · ".join(words), lambda item, names: item.choice(words), {"enum": [*words]})
 
 

@@ -87,7 +87,7 @@ def _by_letter(letter: str, loads: Sequence[Load]) -> dict[str, Load]:
 
 
 def ordered_links(scene: Scene) -> dict[str, tuple[str, ...]]:
-    """Each link with its points."""
+    """Links in order of their names, the frame last; the points of each in the order in which links lead to them."""
     links = sorted(scene.links, key=lambda link: (link == FRAME, by_name(link)))
     rank = {link: -1 if link == FRAME else number for number, link in enumerate(links)}
 

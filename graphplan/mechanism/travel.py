@@ -120,7 +120,7 @@ def turned_about(at: Pair, cos: Number, sin: Number) -> LinkAttitude:
 
 
 def following(first: LinkAttitude, then: LinkAttitude) -> LinkAttitude:
-    """One after the other."""
+    """Compose two attitudes: `first`, then `then`."""
     x, y = then.place_of((first.x, first.y))
     return LinkAttitude(x, y, then.cos * first.cos - then.sin * first.sin,
                         then.sin * first.cos + then.cos * first.sin)

@@ -162,7 +162,7 @@ class Draughtsman:
                                    *self.special])
 
     def _velocity_ways(self, planned: bool) -> tuple[Said, ...]:
-        """By which poles velocities are drawn, if by any, else how rings of links are broken, if moves are planned."""
+        """Name the poles by which velocities are drawn; without any, the way of breaking each ring of links."""
         moves = self.planner.of_velocities.moves if planned else []
         return _by_poles(self.velocity_moves) or tuple(_ring_methods(moves))
 
@@ -315,7 +315,7 @@ def _flat(moves: Iterable[Move]) -> Iterator[Move]:
 
 
 def _by_poles(moves: Iterable[Move]) -> tuple[Said, ...]:
-    """By which poles velocities are drawn, if by any."""
+    """Name the poles by which velocities are drawn; empty without any."""
     links = sorted((move.body for move in moves if isinstance(move, Centre)), key=by_name)
     return (said("poles of {0}", list_links(links)),) if links else ()
 

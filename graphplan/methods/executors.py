@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING, Any, cast
 
-from graphplan.errors import Refused
+from graphplan.errors import Refused, missing_package
 
 if TYPE_CHECKING:  # what shares work out is loaded where work is shared out
     from concurrent.futures import Executor, Future
@@ -69,7 +69,7 @@ def _cluster(address: str) -> Any:
     try:
         from distributed import Client
     except ImportError:
-        raise Refused(f"workers {address}", "dask is not installed", "pip install 'graphplan[dask]'") from None
+        raise missing_package(f"workers {address}", "dask", "dask") from None
     try:
         return cast(Any, Client)(address, timeout=PATIENCE)
     except (OSError, ValueError) as error:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
-from graphplan.errors import Refused
+from graphplan.errors import Refused, missing_package
 from graphplan.leaves import Format, leaves
 from graphplan.phrases import said
 
@@ -41,8 +41,7 @@ def load_writer(module: str, extra: str) -> Any:
     except ModuleNotFoundError as missing:
         if not extra:
             raise
-        raise Refused(f"format {extra}", f"{missing.name} is not installed",
-                      f"pip install 'graphplan[{extra}]', or another format") from None
+        raise missing_package(f"format {extra}", missing.name, extra, "another format") from None
 
 
 def sheet_writer(name: str) -> Callable[..., Any]:

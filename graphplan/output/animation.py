@@ -239,7 +239,7 @@ class _Clock:
         return [value for _, value in track], [k / self.poses for k, _ in track]
 
     def _display(self, places: Sequence[int]) -> Element:
-        """In which poses an element is shown."""
+        """An element of SVG that shows its parent in these poses alone."""
         is_visible = [k in {*places} for k in range(self.poses)]
         turns = [k for k in range(self.poses) if k == 0 or is_visible[k] != is_visible[k - 1]]
         return self._animate("display", ["inline" if is_visible[k] else "none" for k in turns],

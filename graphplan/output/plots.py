@@ -260,7 +260,7 @@ class _Column:
 
 
 def _pick_rays(stretches: list[list[Ray[Spot]]]) -> list[Ray[Spot]]:
-    """Some rays, far from each other."""
+    """Pick a few rays to show, evenly spread."""
     rays = list(chain(*stretches))
     return rays[1 :: max(1, len(rays) // SHOWN)][:SHOWN]
 

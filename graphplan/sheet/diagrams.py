@@ -197,7 +197,7 @@ class Diagram:
     pen: Pen = DIVISION
 
     def items(self) -> Iterator[Item]:
-        """Its strokes, without axes and words."""
+        """Strokes and areas of the curves, without axes and words."""
         frame, rect = self.frame, self.frame.rect
         for xs, ys, level in self.areas:
             ends = [(xs[-1], level), (xs[0], level)]

@@ -147,7 +147,7 @@ def page_of(name: str) -> str:
 
 
 def anchor(head: str) -> str:
-    """By what a link names a head: its words in lower case, with hyphens between them, as code hosts have it."""
+    """Anchor of a heading as code hosts make it: lower case, words joined by hyphens."""
     return re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-")
 
 

@@ -137,8 +137,8 @@ class _Site:
             words = [name for page in shown for name in (*page.files, f"{page.name}.html")]
             yield from chapters.chapter_pages(keys, {SCENES, TUTORIAL, REFERENCE, *words, *measured}, tongue)
         else:
-            Messages(self.options.quiet).remark("The site has no chapters, as markdown-it-py is not installed. "
-                                                "Try: pip install 'graphplan[manual]'")
+            Messages(self.options.quiet).remark("The site has no chapters: markdown-it-py is not installed; "
+                                                "pip install 'graphplan[manual]'")
 
     @property
     def tongue(self) -> Tongue:

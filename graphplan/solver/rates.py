@@ -144,7 +144,7 @@ class Equations:
         return PairSides(self.side(*first, rates), self.side(*second, rates))
 
     def side(self, link: str, point: str, rates: dict[str, Rate]) -> PairSide:
-        """One link at one point, with these rates."""
+        """The side of a statement at a point of a link, with the link's rates."""
         return PairSide(self.arm(link, point), rates[link])
 
     def rates(self, values: Sequence[Number], zero: Number) -> dict[str, Rate]:

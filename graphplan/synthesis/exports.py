@@ -30,7 +30,7 @@ def numbers(synthesis: Synthesis, check: Mapping[str, float]) -> dict[str, Any]:
 
 
 def solution(linkage: FoundLinkage) -> dict[str, Any]:
-    """One linkage."""
+    """The JSON of a synthesized linkage."""
     least, turned = linkage.transmission
     travel = linkage.travel
     return {"points": {name: pair(place) for name, place in linkage.points.items()}, "lengths": linkage.lengths,

@@ -101,7 +101,7 @@ class InvoluteWheel:
 
     @property
     def numbers(self) -> dict[str, Any]:
-        """As results have it."""
+        """Dimensions of the wheel by name, for JSON."""
         names = "pitch", "base", "tip", "root", "thickness", "undercut", "least_shift"
         return {name: getattr(self, name) for name in names} | {"pointed": self.is_pointed}
 

@@ -225,7 +225,7 @@ TURN_DEGREES = 360.0
 
 
 def reached_span(angle: Callable[[Array], Array], low: float, high: float) -> tuple[float, float]:
-    """From which travel to which the dyad closes about a range: a turn at most."""
+    """The range of travel, at most one turn, around `low` to `high` in which the dyad closes."""
     travels = np.linspace(low - TURN_DEGREES, high + TURN_DEGREES, 4 * PATH_SAMPLES + 1)
     broken = np.isnan(angle(travels))
     before, after = travels[broken & (travels < low)], travels[broken & (travels > high)]

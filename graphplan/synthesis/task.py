@@ -198,7 +198,7 @@ SIZES_OF_CRANK = "offset", "crank", "rod"
 
 
 def _stroke(row: TableRow) -> StrokeTask | None:
-    """One mechanism, with just what it needs."""
+    """Check that exactly one mechanism is given, with the values that it needs."""
     items, values = row.items, row.values
     angle = values["angle"] if "angle" in values else 180 * (values["ratio"] - 1) / (values["ratio"] + 1)
     if not 0 <= angle < 180:

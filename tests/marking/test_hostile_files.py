@@ -360,4 +360,4 @@ def test_drawings_need_their_extra(kind: str, package: str, tmp_path: Path, monk
     """Without the package that reads it, a file is refused with what to install."""
     monkeypatch.setitem(sys.modules, package, None)
     (path := tmp_path / f"a.{kind}").write_bytes(FORMATS["svg"][1](right("four-bar, polar", 0)))
-    assert f"needs {package}; pip install 'graphplan[{kind}]'" in refused(path, capfd)
+    assert f"{package} is not installed; pip install 'graphplan[{kind}]'" in refused(path, capfd)

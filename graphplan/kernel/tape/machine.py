@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphplan.errors import Refused
+from graphplan.errors import missing_package
 from graphplan.kernel.tape.record import Language, Tape, Writer
 
 LANES = 8  # poses at a time, as many as the widest registers hold; LLVM cuts vectors up where registers are narrower
@@ -33,7 +33,7 @@ class Machine:
 
     def __init__(self, tape: Tape, inputs: Sequence[int], outputs: Sequence[int]):
         if not (find_spec("numba") and find_spec("llvmlite")):
-            raise Refused("compiled", "numba is not installed", "pip install 'graphplan[numba]', or leave it out")
+            raise missing_package("compiled", "numba", "numba", "leave it out")
         self.tape, self.inputs, self.outputs = tape, inputs, outputs
         self._loops: dict[tuple[Layout, Layout], Any] = {}
 

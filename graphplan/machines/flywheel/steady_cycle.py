@@ -150,7 +150,11 @@ def work_to_and_fro(moment: Piecewise) -> float:
 
 def closing_factor(loads: Mapping[str, Piecewise], works: Mapping[str, float], changing: Collection[str], size: float,
                    what: str) -> float:
-    """By what the loads that change are multiplied so that the cycle closes; `size` is that of all work."""
+    """Return the factor of the changing loads with which the work over the cycle is zero.
+
+    `works` are in J; `size`, the work of all loads in J, decides what counts as zero. Fails with `Refused` where the
+    changing loads, or the others, do no work.
+    """
     if not [name for name in loads if name in changing]:
         raise Refused(f'{what}: closes = "load"', "no load changes", 'a load with `over`, or closes = "drive"')
     done = sum(works[name] for name in changing)

@@ -351,7 +351,7 @@ class GovernorFriction:
         return self.rubbing.loads(travel, turn, self.rubbing.motion.velocities(turn))
 
     def acting(self, others: dict[str, Array], C: Array) -> dict[str, Array]:
-        """These loads and a force C in N on all balls, in the scene's units."""
+        """Add to other loads a force C, in N, shared by all balls; loads by name, in the scene's units."""
         newton = float(NEWTONS[self.rubbing.scene.units.force])
         return others | {name: C * share / newton * self.across[name] for name, share in self.shares.items()}
 

@@ -244,11 +244,14 @@ class _Balancing:
 
     @property
     def moment_scale(self) -> float:
-        """The size of what is to be balanced."""
+        """The largest mass times the reach: moments are compared with it."""
         return max((float(mass.mass) for mass in self.masses.values()), default=0.0) * self.reach
 
     def moments(self, links: Sequence[str], weights: Mapping[str, float]) -> tuple[dict[str, complex], Form]:
-        """The moments of counterweights on these links that leave the least over, and what that is."""
+        """Fit the static moments of counterweights on these links: mass times arm, complex, in the given pose.
+
+        Also gives the part of the first moment of all masses that they leave unbalanced.
+        """
         import numpy as np
 
         first = self.first_moment(weights)
@@ -265,7 +268,7 @@ class _Balancing:
         return moments, dict(zip(keys, remainder.tolist(), strict=True))
 
     def is_free(self, key: str) -> bool:
-        """Whether what goes with it does not count: what is constant, and a sliding along the guide."""
+        """Whether a part of the first moment needs no balancing: a constant one, or one along the guide."""
         if key == FRAME:
             return True
         if self.guide is None or not key.startswith("sliding of "):

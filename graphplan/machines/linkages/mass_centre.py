@@ -120,7 +120,7 @@ def _hangings(scene: Scene, chained: bool) -> Iterator[Hanging]:
 
 
 def hang_from(scene: Scene, first: list[Hanging], found: set[str], chained: bool) -> Iterator[Hanging]:
-    """These links and all that joints lead to from them: `chained` depth first, else the nearest first."""
+    """Yield these links and all that joints connect to them: depth first if `chained`, else breadth first."""
     queue = first[::-1]
     while queue:
         hanging = queue.pop()

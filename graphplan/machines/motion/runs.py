@@ -523,7 +523,7 @@ def steady_motion(machine: DrivenMachine, speed: float) -> TrueMotion:
 
 
 def motion_over_turn(machine: DrivenMachine, energy: float) -> TrueMotion:
-    """One turn from its beginning with this energy there."""
+    """The motion over one turn from this kinetic energy, in J, at its beginning."""
     begin = machine.begin
     omega = math.sqrt(2 * energy / float(machine.inertia(np.array([begin]))[0]))
     motion = move(machine, omega, begin, begin + machine.period)

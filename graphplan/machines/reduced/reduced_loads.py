@@ -95,7 +95,7 @@ class Recordings:
 
     def _poses(self, drawing: Construction, turn: Turn, left: Array, only: Collection[str] | None,
                given: Mapping[str, Mapping[str, Array]]) -> Any:
-        """One construction in some of the poses."""
+        """Evaluate a construction in the poses that `left` selects."""
         points, guides, *more = ({name: z[left] for name, z in values.items()}
                                  for values in (turn.points, turn.guides, *given.values()))
         return drawing.evaluate(points, guides, only=only, compiled=self.compiled,

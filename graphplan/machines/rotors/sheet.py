@@ -174,7 +174,7 @@ class RotorOnPaper:
         return found
 
     def component(self, k: int, way: float, values: Sequence[Any]) -> Any:
-        """The part in a direction of a correction, in numbers that were drawn."""
+        """Component of correction k in the direction `way`, in radians, from the values of drawn marks."""
         x, y = self.balanced.sides(values)[k]
         return x * math.cos(way) + y * math.sin(way)
 

@@ -13,7 +13,7 @@ from itertools import islice
 from statistics import fmean
 from typing import Any
 
-from graphplan.errors import Refused
+from graphplan.errors import missing_package
 from graphplan.marking.classroom import measures
 from graphplan.marking.judge.findings import (
     StepName,
@@ -46,8 +46,7 @@ def csv_text(rows: Iterable[Row]) -> str:
 def require_openpyxl(output: str) -> None:
     """Refuse a workbook that cannot be written here, before anything is judged."""
     if not find_spec("openpyxl"):
-        raise Refused(output, "writing .xlsx needs openpyxl, which is not installed",
-                      "pip install 'graphplan[xlsx]', or a name in .csv, which spreadsheets read")
+        raise missing_package(output, "openpyxl", "xlsx", "a name in .csv, which spreadsheets read")
 
 
 def workbook(rows: Iterable[Row]) -> bytes:

@@ -356,7 +356,7 @@ def place_pages(stack: Iterable[SeenPage], register: ClassRegister,
 
 
 def _place_page(seen: SeenPage, code: DecodedPage, register: ClassRegister, word: Assignment | None) -> PlacedPage:
-    """One page, whatever the others are."""
+    """Place a page of a stack, without regard to the other pages."""
     if word is None and code.sheet is not None:
         return PlacedPage(seen, _fate(code), code.sheet, code.sheet.student, code.mirrored, tuple(_notes(code)))
     if word is None:

@@ -18,7 +18,7 @@ from typing import Any
 from graphplan import __version__
 from graphplan.app.choices import Messages
 from graphplan.app.files import as_json, kind, write
-from graphplan.errors import Refused
+from graphplan.errors import Refused, missing_package
 from graphplan.marking.classroom import results as found_results
 from graphplan.marking.classroom.class_files import REGISTER_FILE, ClassRegister, TaskSheet, is_class, load_register
 from graphplan.marking.classroom.class_variants import draft_scene
@@ -68,7 +68,7 @@ def run(options: argparse.Namespace) -> int:
     """Judge a stack; return 2 if no sheet could be judged."""
     stack = Path(options.drawing)
     if not find_spec("cv2"):
-        raise Refused(f"{stack}", "reading scans needs OpenCV, which is not installed", "pip install 'graphplan[scan]'")
+        raise missing_package(f"{stack}", "OpenCV", "scan")
     if stack.is_dir() and is_class(stack):
         raise Refused(f"{stack}", f"this folder has a {REGISTER_FILE}, and no scans",
                       "the file or the folder of the scans")

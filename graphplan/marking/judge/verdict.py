@@ -216,7 +216,7 @@ class AskedResult:
 
     @property
     def name(self) -> str:
-        """By what a teacher's verdict on it is known."""
+        """Key of the verdict in a teacher's decisions: kind and name of the result."""
         return f"{self.kind} {self.of}".strip()
 
 

@@ -121,7 +121,7 @@ class Ridges:
         return len(self.spots)
 
     def select(self, which: Flags | Places) -> Ridges:
-        """Some of them."""
+        """The ridges at these places."""
         return Ridges(self.spots[which], self.normals[which], self.strength[which])
 
 

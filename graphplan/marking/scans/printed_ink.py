@@ -34,7 +34,7 @@ class Pieces:
     is_own: Flags
 
     def select(self, which: Flags) -> Pieces:
-        """Some of them."""
+        """The pieces that the flags select."""
         return Pieces(self.middles[which], self.along[which], self.halves[which], self.is_own[which])
 
 
@@ -79,7 +79,7 @@ def print_pieces(sheet: Sheet) -> Pieces:
 
 
 def _draw_item(canvas: NDArray[np.uint8], item: Item, height: float, scale: float) -> None:
-    """One item in ink; words are not drawn."""
+    """Draw an item in printed ink; texts are left out."""
     fill, filled = item.pen.fill, tuple[Spot, ...]()
     match item:
         case Polygon(spots=spots):

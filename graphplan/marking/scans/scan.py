@@ -79,7 +79,7 @@ def read_page(path: Path, printed: Sheet, code: int | None = None) -> PencilPage
 
 
 def _pencil_page(image: Grey, printed: Sheet, code: int | None, name: str) -> PencilPage:
-    """One picture of a page."""
+    """Read the pencil strokes of one picture of a page."""
     require_contrast(image, name)
     scale = min(measures.PAGE_PX_PER_MM, (measures.MAX_PAGE_PX / (printed.width * printed.height)) ** 0.5)
     light = print_picture(printed, scale)
@@ -349,7 +349,7 @@ class PencilPage:
             and (self.ink.is_on_plan(dot.spots) or self._is_on_stroke(dot))]
 
     def _with_page_error(self, trace: Trace) -> Trace:
-        """With what the page itself is unsure by."""
+        """Add the uncertainty of the page's own place to that of a trace."""
         return replace(trace, blur=math.hypot(trace.blur, self.error))
 
 

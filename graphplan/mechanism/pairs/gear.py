@@ -128,7 +128,7 @@ class Gear(KinematicPair):
         return " ".join((*self.wheels, *(() if self.alone else ("at", *self.centres))))
 
     def states(self, scene: GivenPose) -> Iterator[Statement]:
-        """One link rolls on the other."""
+        """State that one link rolls on the other without slipping."""
         if self.direction is not None:
             yield OnRack(*self.wheels, self.centres[0], self.direction, ROLLING, name=self.name, radius=self.radius)
         else:

@@ -138,7 +138,7 @@ class Position(NamedTuple):
         return cross(self.points[site.at], self.ways[site]) if site.at else FAR
 
     def finite(self, site: UnknownForce) -> Triple:
-        """Any point where a site's force acts."""
+        """A finite point on the line of action of an unknown force."""
         name = site.point if isinstance(site, JointForce) else site.at
         return self.points[name or next(iter(self.points))]
 

@@ -96,7 +96,10 @@ def rolling(scene: Scene) -> dict[str, RollingGuide]:
 
 
 def sources(scene: Scene) -> dict[str, tuple[Source, Source]]:
-    """For each link that has them two points with known centres, those found first preferred; by the joints alone."""
+    """Find for each link two points whose paths have known centres of curvature.
+
+    Uses pins, slides and rolling wheels alone; links without two such points are left out.
+    """
     fixed = scene.links.get(FRAME, ())
     pivots = {link: point for link in scene.moving for point in scene.links[link] if point in fixed}
     slides = {s.link if s.along == FRAME else s.along: s for s in scene.slides if FRAME in s.links and s.turns_alike}

@@ -209,7 +209,7 @@ class Arrangement:
         return enlarge_words(words, self.letters.times)(self.further_columns[0].width)
 
     def set_facts(self, facts: FactRows) -> tuple[Item, ...] | None:
-        """These facts where they stand, in its letters; None where they have no room."""
+        """Set facts in the blocks that are reserved for them; None if they do not fit."""
         placed_rows = [fill(rows, place.columns)
                        for rows, place in zip(self._fact_rows(facts), self.facts, strict=True)]
         if any(placed is None for placed in placed_rows):

@@ -151,11 +151,11 @@ class LabelCandidates:
         return np.asarray(np.any(np.all(shared, axis=2), axis=1))
 
     def for_letters(self, letters: Sequence[int]) -> LabelCandidates:
-        """These places, renumbered as places of the given letters of a longer list."""
+        """Candidates renumbered for a longer list of letters."""
         return LabelCandidates(np.array(letters)[self.letters], *list(vars(self).values())[1:])
 
     def append(self, more: LabelCandidates) -> LabelCandidates:
-        """These places and, after them, more; letters are no longer in order."""
+        """Concatenate candidates; letters are no longer in order."""
         pairs = zip(vars(self).values(), vars(more).values(), strict=True)
         return LabelCandidates(*map(np.concatenate, pairs))
 

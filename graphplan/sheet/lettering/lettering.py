@@ -261,7 +261,7 @@ def _words(runs: Runs, small: float) -> list[tuple[Runs, float]]:
 
 
 def _flat(runs: Iterable[TextRun]) -> Runs:
-    """One run for every character."""
+    """Split runs into one run a character."""
     return tuple(TextRun(char, run.level) for run in runs for char in run.text)
 
 

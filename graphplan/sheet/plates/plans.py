@@ -93,11 +93,11 @@ class Plans:
 
     @cached_property
     def sentences(self) -> list[str]:
-        """Each drawn step in words, in the tongue of the sheet."""
+        """Sentences of all drawn steps, in the language of the sheet."""
         return [*map(self.tongue, self.drawing.sentences())]
 
     def sentence(self, index: int) -> str:
-        """One of them."""
+        """Sentence of the drawn step at this place."""
         return self.sentences[index]
 
     @cached_property

@@ -50,7 +50,7 @@ class ForceTables:
                 yield self._reactions(rubbed)
 
     def _with_friction(self, of: Iterable[str], rubbed: bool) -> list[kinds.ResultKind]:
-        """These kinds, or what they are with friction."""
+        """Kinds of these names, with friction if `rubbed`."""
         return [kinds.WITH_FRICTION[kind] if rubbed else kinds.kind_of(kind) for kind in of]
 
     def _reactions(self, rubbed: bool) -> Table:

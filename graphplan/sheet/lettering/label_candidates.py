@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -30,8 +30,7 @@ Array = np.ndarray[Any, Any]
 OUTWARDS = np.array([-1.0, -1.0, 1.0, 1.0])  # each side of a box
 
 
-@dataclass(frozen=True)
-class Wish:
+class Wish(NamedTuple):
     """A letter that wants a place: near one of its spots, at least `clear` away from it.
 
     `minor` ones are as large as words, others as letters of marks; `balloon` puts it in a circle, as link numbers are;

@@ -136,7 +136,7 @@ def lettering(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spo
     """Place letters, and judge how well they stand."""
     if not wishes:
         return PlacedLetters()
-    wishes = [replace(wish, letters=letters) for wish in wishes]
+    wishes = [wish._replace(letters=letters) for wish in wishes]
     prices = Prices(candidates(wishes, rect), Lines(items), Marks(marks), Surfaces(items))
     return PlacedLetters(wishes, rect, prices, _choose_places(prices, len(wishes)))
 
@@ -266,7 +266,7 @@ def wishes_inside(wishes: Iterable[Wish], rect: Rect) -> Iterator[Wish]:
     """The letters whose marks are on the panel."""
     for wish in wishes:
         if spots := tuple(filter(rect.holds, wish.spots)):
-            yield wish if spots == wish.spots else replace(wish, spots=spots)
+            yield wish if spots == wish.spots else wish._replace(spots=spots)
 
 
 def mechanism_wishes(mechanism: DrawnMechanism) -> Iterator[Wish]:

@@ -331,7 +331,8 @@ def surfaces(items: Sequence[Item]) -> tuple[Array, Array]:
     discs[rings] = shapely.buffer(shapely.get_exterior_ring(discs[rings]), 0.2, quad_segs=2)
     order = np.argsort([place for place, *_ in (*thick, *circles, *areas)], kind="stable")
     rates = np.array([*[INK_RATE] * (len(strips) + len(discs)), *(rate for *_, rate in areas)])
-    return np.array([*strips, *discs, *(shapely.Polygon(spots) for _, spots, _ in areas)], dtype=object)[order], rates[order]
+    figures = np.array([*strips, *discs, *(shapely.Polygon(spots) for _, spots, _ in areas)], dtype=object)
+    return figures[order], rates[order]
 
 
 CLASH = 400.0  # the price of standing on another letter, and of each mm^2 of that

@@ -152,8 +152,7 @@ def row_items(placed: Sequence[Placed]) -> Iterator[Item]:
                     yield Polyline(THIN, row.layer, row.step, ((left, low), (right, low)))
 
 
-@dataclass(frozen=True)
-class Deviation:
+class Deviation(NamedTuple):
     """Error of a drawn result: in its own unit, and in mm of paper if it is one drawn vector; infinite if no pencil
     follows the drawing."""
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -34,8 +34,7 @@ HANDS = 4000  # the scatter is then known to about one part in a hundred
 SEED = 1939
 
 
-@dataclass(frozen=True)
-class Result:
+class Result(NamedTuple):
     """The expected error of one reading: in its own unit and in mm, relative to the largest value of its kind where
     there is any, and the share of each drawn step in its variance. An error without bound is shared by the steps that
     no pencil follows."""

@@ -129,7 +129,7 @@ class TikzWriter(Walk):
         words = captions(self.composition) if self.composition else ()
         box = extent([*(item for plate in self.plates for item in self.plan_items(plate)), *words])
         if self.composition and is_column:
-            box = replace(box, left=0.0, right=self.composition.arrangement.width)
+            box = box._replace(left=0.0, right=self.composition.arrangement.width)
             self.reduction = box.width / _mm(width)
         self.tells_scales = not width or (is_column and width > 1)
         self.far = MAX_COORDINATE_MM / max(1.0, width / box.width)

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
 from typing import Any
+from xml.etree.ElementTree import tostring
 
 import svgwrite
 from svgwrite.text import TSpan
@@ -108,7 +109,7 @@ def svg(sheet: Sheet, *, alone: bool = True, **look: Any) -> str:
         document.add(group)
         if alone:
             _name_group(group, key, tongue(sheet.language))
-    return f'<?xml version="1.0" encoding="utf-8"?>\n{document.tostring()}\n'
+    return f'<?xml version="1.0" encoding="utf-8"?>\n{tostring(document.get_xml(), encoding="unicode")}\n'
 
 
 def _name_group(group: Element, key: str, say: Tongue) -> None:
@@ -158,7 +159,7 @@ def group(key: str | int, sentence: str) -> Element:
 def round_mm(number: float, places: int = 2) -> float:
     """To 0.01 mm, or to more places, and never -0."""
     value = round(number, places) + 0.0
-    return int(value) if value == int(value) else value
+    return int(value) if value.is_integer() else value
 
 
 class _Document(svgwrite.Drawing):  # type: ignore[misc]

@@ -105,8 +105,8 @@ class Division:
         whole, found = sum(share for share, _ in self.parts), dict[Panel, Rect]()
         edges = pairwise(accumulate((share / whole for share, _ in self.parts), initial=0.0))
         for (start, end), (_, part) in zip(edges, self.parts, strict=True):
-            inner = replace(rect, left=rect.left + start * rect.width, right=rect.left + end * rect.width) if \
-                self.across else replace(rect, top=rect.top - start * rect.height, bottom=rect.top - end * rect.height)
+            inner = rect._replace(left=rect.left + start * rect.width, right=rect.left + end * rect.width) if \
+                self.across else rect._replace(top=rect.top - start * rect.height, bottom=rect.top - end * rect.height)
             found |= part.rects(inner) if isinstance(part, Division) else {part: inner}
         return found
 
@@ -208,9 +208,9 @@ class PanelPage:
     @cached_property
     def panels(self) -> Mapping[Panel, Rect]:
         """The panels; they end above a title block that is wider than the words."""
-        room = replace(self.space, right=self.space.right - self._pitch)
+        room = self.space._replace(right=self.space.right - self._pitch)
         wider = self.title.left < room.right - 0.1
-        return self.division.rects(replace(room, bottom=self.title.top) if wider else room)
+        return self.division.rects(room._replace(bottom=self.title.top) if wider else room)
 
     @property
     def column(self) -> Rect:

@@ -90,7 +90,7 @@ class SynthesisOnPaper:
     @cached_property
     def _low_view(self) -> View:
         box, rect, scale = extent(self.synthesis), self.page.room(PLAN), self._middle_view.scale
-        foot = replace(rect, top=rect.bottom + box.height * scale + 2 * PLAN_MARGIN_MM)
+        foot = rect._replace(top=rect.bottom + box.height * scale + 2 * PLAN_MARGIN_MM)
         return replace(view(box, foot, 1 / scale), rect=rect)
 
     @cached_property
@@ -134,7 +134,7 @@ class SynthesisOnPaper:
         """The construction where it lies on this sheet."""
         page, (wide, high) = self.page, sheet_size(self.paper)
         rect = page.panels[PLAN]
-        column = replace(page.column, left=rect.right + GAP_MM)
+        column = page.column._replace(left=rect.right + GAP_MM)
         arrangement = Arrangement(self.paper, wide, high, page.space, {MECHANISM: rect}, (column,), page.title)
         return Composition(arrangement, self.scales, {MECHANISM: self.view},
                            Plans(self.construction(self.synthesis.values), page.tongue))

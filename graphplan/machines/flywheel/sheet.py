@@ -226,7 +226,7 @@ class FlywheelDiagrams:
         """From the drawing's mm to those of the sheet: in the middle of the panel, and as large."""
         true = spans(self.result) if self.by == WITTENBAUER else {}
         box = extent(self.drawing.frames, self.drawing.pole, true)
-        return view(replace(box, left=box.left - SIDE, right=box.right + RIGHT), self.rect, 1.0)
+        return view(box._replace(left=box.left - SIDE, right=box.right + RIGHT), self.rect, 1.0)
 
     @cached_property
     def frames(self) -> dict[str, Frame]:
@@ -311,7 +311,7 @@ class FlywheelDiagrams:
         """The tangents, each from the axis to beyond its point of contact, and to the origin in which they meet, if it
         lies on the panel: so far left of the axis is the flywheel."""
         frame, wheel, rect = self.frames["energy-mass"], self.result.wheel, self.rect
-        O, shown = frame.spot(-wheel.inertia, wheel.origin), replace(rect, top=frame.rect.top + ROW_GAP_MM / 4)
+        O, shown = frame.spot(-wheel.inertia, wheel.origin), rect._replace(top=frame.rect.top + ROW_GAP_MM / 4)
         for which, cut, touch in self._cuts():
             (place,), pen = roles[which], TANGENTS[which]
             slope, far = touch.slope * frame.x.unit / frame.y.unit, frame.rect.right + BEYOND - cut[0]

@@ -9,11 +9,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from itertools import combinations
-from typing import Any
+from typing import Any, NamedTuple
 
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Board, Mark, Program
@@ -39,8 +38,7 @@ from graphplan.methods.tolerances import PLACE_TOL
 from graphplan.phrases import said
 
 
-@dataclass(frozen=True)
-class Acting:
+class Acting(NamedTuple):
     """A drawn force: the mark at which it acts, its tail and its head; `name` is how it is spoken of."""
 
     at: Mark

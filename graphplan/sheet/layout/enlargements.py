@@ -137,7 +137,7 @@ class DetailRing:
                 yield wish
             elif spots := tuple(spot for spot in wish.spots
                                 if not self.holds(spot) or (spot in clear and not wish.free)):
-                yield replace(wish, spots=spots)
+                yield wish._replace(spots=spots)
 
     def within(self, wishes: Iterable[Wish]) -> set[tuple[int | None, str]]:
         """The letters that have no place outside, by their steps and what they are called."""

@@ -169,12 +169,12 @@ def _lowest_corner(space: Rect, left: float, title: Rect, facts: FactRows) -> Co
     count = int(corner.width // max(FACT_COLUMN_MM, facts.least_width + 2 * PADDING_MM))
     rows = facts(corner.width / count - 2 * PADDING_MM) if count else []
     spare = sum([row.height for row in rows]) / max(1, count) - corner.height  # lower columns cannot hold them
-    corner = replace(corner, top=corner.top + ROW_STEP_MM * max(0, math.ceil(spare / ROW_STEP_MM - EDGE_TOL)))
+    corner = corner._replace(top=corner.top + ROW_STEP_MM * max(0, math.ceil(spare / ROW_STEP_MM - EDGE_TOL)))
     while rows and corner.top <= space.top:
         columns = divide_into_columns(corner, count, title, PADDING_MM)
         if fill(rows, columns) is not None:
             return Corner(corner, title, (FactPlace(FACTS, columns),))
-        corner = replace(corner, top=corner.top + ROW_STEP_MM)
+        corner = corner._replace(top=corner.top + ROW_STEP_MM)
     return Corner(title, title)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from copy import copy
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -206,7 +205,7 @@ def free_places(facts: FactRows, arrangement: Arrangement, drawn: Iterable[Item]
     """Places for facts among the items of the plans; empty if there is no room."""
     items = list(drawn)
     for panel in arrangement.panels.values():
-        caption = replace(panel, bottom=panel.top - CAPTION_MM)
+        caption = panel._replace(bottom=panel.top - CAPTION_MM)
         items += [Polygon(BORDER, "paper", None, caption.corners),
                   Polyline(BORDER, "paper", None, (*panel.corners, panel.corners[0]))]
     items += [Polygon(BORDER, "paper", None, rect.corners) for rect in (arrangement.title, *arrangement.columns)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -30,8 +30,7 @@ Array = np.ndarray[Any, Any]
 OUTWARDS = np.array([-1.0, -1.0, 1.0, 1.0])  # each side of a box
 
 
-@dataclass(frozen=True)
-class Wish:
+class Wish(NamedTuple):
     """A letter that wants a place: near one of its spots, at least `clear` away from it.
 
     `minor` ones are as large as words, others as letters of marks; `balloon` puts it in a circle, as link numbers are;
@@ -172,17 +171,18 @@ def candidates(wishes: Sequence[Wish], rect: Rect, rings: Array = RINGS, ways: i
     letter = np.repeat(np.arange(len(wishes)), counts)
     free, clear = np.array([(wish.free, wish.clear) for wish in wishes])[letter].T
     at, ring = np.divmod(np.arange(len(spots) * len(rings)), len(rings))
-    extent = np.array([wish.extent for wish in wishes])[letter[at]][:, None]
+    half = np.array([wish.extent for wish in wishes])[letter[at]][:, None] / 2
     gaps, costs = rings[ring].T
     turns = np.arange(ways) / ways
     directions = np.stack([np.cos(2 * np.pi * turns), np.sin(2 * np.pi * turns)], axis=1)
     sides = directions / abs(directions).max(axis=1, keepdims=True)  # to the edge of a square
-    centres = spots[at][:, None] + (clear[at] + gaps)[:, None, None] * directions + sides * extent / 2
-    boxes = np.concatenate([centres - extent / 2, centres + extent / 2], axis=-1)
+    centres = spots[at][:, None] + (clear[at] + gaps)[:, None, None] * directions + sides * half
+    boxes = np.concatenate([centres - half, centres + half], axis=-1)
     led = gaps > LED
     cost = (costs + (0.05 * number[at] + LEADER * led) * free[at])[:, None] + TASTE * ((16 * turns - 2) % 16)
-    cells = boxes + AIR * OUTWARDS
-    inside = ((cells[..., :2] >= (rect.left, rect.bottom)) & (cells[..., 2:] <= (rect.right, rect.top))).all(axis=-1)
+    left, low, right, top = np.moveaxis(boxes, -1, 0)
+    inside = ((left - AIR >= rect.left) & (low - AIR >= rect.bottom)
+              & (right + AIR <= rect.right) & (top + AIR <= rect.top))
     row, _ = np.nonzero(inside)
     places = LabelCandidates(letter[at][row], boxes[inside], spots[at][row], cost[inside], led[row])
     places.cost[places.led & (places.distances > MAX_LEADER_MM)] += LONG_LEADER

@@ -8,7 +8,6 @@ take most of the time where forms of a construction are weighed.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -34,7 +33,7 @@ def share_without_room(plates: Plates) -> float:
 def _without_room(plate: Plate) -> tuple[int, int]:
     """Number of letters of a plan without a good place, and of all its letters."""
     rect = plate.view.rect
-    wishes = [replace(wish, letters=plate.plates.letters) for wish in wishes_inside(wishes_on(plate), rect)]
+    wishes = [wish._replace(letters=plate.plates.letters) for wish in wishes_inside(wishes_on(plate), rect)]
     if not wishes:
         return 0, 0
     near = candidates(wishes, rect, RINGS[RINGS[:, 0] <= LED])

@@ -21,7 +21,7 @@ from graphplan.methods.panels import MECHANISM, LeverPlan
 from graphplan.phrases import said
 from graphplan.sheet.lettering.label_candidates import FINE_RINGS, OUTWARDS, Array, LabelCandidates, Wish, candidates
 from graphplan.sheet.lettering.lettering import SMALL_SHEET, LetterSizes, list_runs, name_runs, sentence_runs
-from graphplan.sheet.lettering.prices import CLASH, FAULT, Lines, Marks, Prices, Surfaces, overlap
+from graphplan.sheet.lettering.prices import CLASH, FAULT, Lines, Marks, Prices, Surfaces, overlap, touches
 from graphplan.sheet.lettering.relabelling import Relabelling
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import ENLARGED, Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
@@ -136,7 +136,7 @@ def lettering(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spo
     """Place letters, and judge how well they stand."""
     if not wishes:
         return PlacedLetters()
-    wishes = [replace(wish, letters=letters) for wish in wishes]
+    wishes = [wish._replace(letters=letters) for wish in wishes]
     prices = Prices(candidates(wishes, rect), Lines(items), Marks(marks), Surfaces(items))
     return PlacedLetters(wishes, rect, prices, _choose_places(prices, len(wishes)))
 
@@ -156,7 +156,7 @@ def _choose_places(prices: Prices, count: int) -> Array:
 def _free_place(prices: Prices, letter: slice, taken: Array) -> int:
     """The cheapest place of a letter clear of the letters placed before; the cheapest of all, if it meets no letter."""
     boxes, best = prices.found.boxes, prices.cheapest(letter)
-    if not overlap(boxes[best : best + 1], taken).any():
+    if not touches(boxes[best], taken):
         return best
     return prices.cheapest(letter, CLASH * overlap(boxes[letter], taken))
 
@@ -266,7 +266,7 @@ def wishes_inside(wishes: Iterable[Wish], rect: Rect) -> Iterator[Wish]:
     """The letters whose marks are on the panel."""
     for wish in wishes:
         if spots := tuple(filter(rect.holds, wish.spots)):
-            yield wish if spots == wish.spots else replace(wish, spots=spots)
+            yield wish if spots == wish.spots else wish._replace(spots=spots)
 
 
 def mechanism_wishes(mechanism: DrawnMechanism) -> Iterator[Wish]:

@@ -105,6 +105,12 @@ def overlap(boxes: Array, others: Array) -> Array:
     return np.bincount(box, covered, len(boxes))
 
 
+def touches(box: Array, others: Array) -> bool:
+    """Whether a box covers any of some other letters, or touches it."""
+    sides = np.minimum(box[2:], others[:, 2:]) - np.maximum(box[:2], others[:, :2]) + AIR
+    return bool((sides > 0).all(axis=1).any())
+
+
 def _overlaps(boxes: Array, others: Array) -> tuple[Array, Array, Array]:
     """Pairs of boxes and others that they cover, with the covered areas."""
     box, other = _meeting(boxes, others[:, :2] - TOUCHING, others[:, 2:] + TOUCHING)
@@ -130,6 +136,7 @@ MISTAKEN_TIMES = 1.5  # as bad as a line, which may break off, are letters neare
 TOUCH = 0.15  # the price of touching, in mm or mm^2 of what is touched
 BESIDE, STRANGER = 0.3, 3.0  # mm by which a letter should be nearer to its own mark than to another; the price of each
 MIN_SURFACE_MM = 0.6  # mm: a wider line is a surface
+INK_RATE, ARROW_RATE, AREA_RATE = 5.0, 4.0, 3.0  # prices of a mm^2: of thick lines and circles, heads, figures
 
 
 class Lines:
@@ -290,10 +297,8 @@ def _mean_between(start: Array, end: Array, most: Array) -> Array:
 class Surfaces:
     """The thick lines and figures of a plan."""
 
-    def __init__(self, items: Iterable[Item]):
-        figures = list(surfaces(items))
-        self.figures = np.array([figure for figure, _ in figures], dtype=object)
-        self.rates = np.array([price for _, price in figures])
+    def __init__(self, items: Sequence[Item]):
+        self.figures, self.rates = surfaces(items)
         self.tree, self.edges = shapely.STRtree(self.figures), FigureEdges(self.figures)
 
     def price(self, found: LabelCandidates) -> Array:
@@ -305,20 +310,29 @@ class Surfaces:
         return np.bincount(places, covered * self.rates[surfaces], len(cells)) + _faulty(places[hidden], len(cells))
 
 
-def surfaces(items: Iterable[Item]) -> Iterator[tuple[Any, float]]:
-    """The thick lines and figures that letters should not cover, as polygons of shapely, each with its price per mm^2.
-    """
-    for item in items:
+def surfaces(items: Sequence[Item]) -> tuple[Array, Array]:
+    """The thick lines and figures that letters should not cover, as polygons of shapely in the order of the items, and
+    the price of each per mm^2."""
+    thick, circles, areas = (list[tuple[int, Any, float]]() for _ in range(3))
+    for place, item in enumerate(items):
         if isinstance(item, Polyline) and item.pen.width > MIN_SURFACE_MM:
-            for ends in pairwise(item.spots):
-                yield shapely.LineString(ends).buffer(item.pen.width / 2, quad_segs=2), 5.0
-        elif isinstance(item, Arrow):
-            yield shapely.Polygon(item.barbs), 4.0
+            thick += [(place, ends, item.pen.width / 2) for ends in pairwise(item.spots)]
         elif isinstance(item, Circle):
-            disc = shapely.Point(item.centre).buffer(item.radius + 0.2, quad_segs=8)
-            yield disc if item.radius <= MAX_DOT_MM else disc.exterior.buffer(0.2, quad_segs=2), 5.0
+            circles.append((place, item.centre, item.radius))
+        elif isinstance(item, Arrow):
+            areas.append((place, item.barbs, ARROW_RATE))
         elif isinstance(item, Polygon) and item.layer != "plates":
-            yield shapely.Polygon(item.spots), 3.0
+            areas.append((place, item.spots, AREA_RATE))
+    ends, halves, centres, radii = (np.array([row[k] for row in rows], dtype=float)
+                                    for rows in (thick, circles) for k in (1, 2))
+    strips = shapely.buffer(shapely.linestrings(ends.reshape(-1, 2, 2)), halves, quad_segs=2)
+    discs = shapely.buffer(shapely.points(centres.reshape(-1, 2)), radii + 0.2, quad_segs=8)
+    rings = radii > MAX_DOT_MM
+    discs[rings] = shapely.buffer(shapely.get_exterior_ring(discs[rings]), 0.2, quad_segs=2)
+    order = np.argsort([place for place, *_ in (*thick, *circles, *areas)], kind="stable")
+    rates = np.array([*[INK_RATE] * (len(strips) + len(discs)), *(rate for *_, rate in areas)])
+    figures = np.array([*strips, *discs, *(shapely.Polygon(spots) for _, spots, _ in areas)], dtype=object)
+    return figures[order], rates[order]
 
 
 CLASH = 400.0  # the price of standing on another letter, and of each mm^2 of that

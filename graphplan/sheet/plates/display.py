@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import accumulate
+from typing import NamedTuple
 
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, TextRun, depth, width
@@ -22,8 +23,7 @@ ENLARGED = "enlarged"  # the layer of details: what of plans is drawn once more,
 EDGE_SLACK_MM = 0.01  # mm by which what is on an edge may be beyond it
 
 
-@dataclass(frozen=True)
-class Rect:
+class Rect(NamedTuple):
     """An upright rectangle on paper."""
 
     left: float

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 from graphplan.mechanism.model import FRAME, Contact, Drive, Gear, Scene, Slide
@@ -331,15 +331,15 @@ class DrawnMechanism:
             runs = sentence_runs(link)
             number = Wish(runs, (), minor=True, label=f"link {link}", balloon=width(runs, 1.0) <= MAX_RINGED_EMS)
             if len(spots) == 1:
-                yield replace(number, spots=(spots[0],), clear=LONG)
+                yield number._replace(spots=(spots[0],), clear=LONG)
             elif symbols.are_collinear(spots):
                 ends = max(((p, q) for p in spots for q in spots), key=lambda pair: math.dist(*pair))
                 middles = tuple(interpolate(*ends, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7))
-                yield replace(number, spots=middles, clear=0.8, free=True)
+                yield number._replace(spots=middles, clear=0.8, free=True)
             else:
                 centre = self.middle(link)
                 inside = [interpolate(centre, spot, t) for t in (0.0, 0.25, 0.45) for spot in spots]
-                yield replace(number, spots=tuple(dict.fromkeys(inside)), clear=-2.0, free=True)
+                yield number._replace(spots=tuple(dict.fromkeys(inside)), clear=-2.0, free=True)
 
     def letters(self) -> dict[Spot, tuple[tuple[TextRun, ...], str]]:
         """Letters at each joint: one name, or all the names of coincident points."""

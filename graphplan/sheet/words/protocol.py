@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import groupby, takewhile
-from typing import Any
+from typing import Any, NamedTuple
 
 from graphplan.kernel.kinds import Movement, Primitive, plain
 from graphplan.kernel.passes import Compound, home_plan
@@ -121,8 +121,7 @@ class SpokenStep:
         return self.step.index
 
 
-@dataclass(frozen=True)
-class Entry:
+class Entry(NamedTuple):
     """One written step: one movement, or several consecutive ones of a compound; `factors` has the reasons for enlarged
     or reduced lengths that no earlier entry explains."""
 
@@ -278,7 +277,7 @@ class Protocol:
                 if pair[0] != pair[1] and frozenset(pair) not in explained:
                     explained.add(frozenset(pair))
                     pairs.append(pair if pair[1] != self.plans.panels[0] else pair[::-1])
-        return replace(entry, factors=partial(factor_reasons, self.lengths.scales, pairs)) if pairs else entry
+        return entry._replace(factors=partial(factor_reasons, self.lengths.scales, pairs)) if pairs else entry
 
     @cached_property
     def _passage_of(self) -> Mapping[int, int | None]:
@@ -310,7 +309,7 @@ class Protocol:
         side: SpokenStep | None = None
         for entry in self._plain_entries(steps, stage, ways):
             if side and any(side.index in movement.step.args for movement in entry.movements):
-                entry, side = replace(entry, movements=(side, *entry.movements)), None
+                entry, side = entry._replace(movements=(side, *entry.movements)), None
             if side:
                 yield self._entry((side,), stage)
             side = entry.movements[0] if self._is_side(entry.movements) else None

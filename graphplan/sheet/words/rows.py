@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import reduce
-from typing import Any
+from typing import Any, NamedTuple
 
 from graphplan.phrases import Said, Unknown, arrange, digits, figures, in_any_case, unit
 from graphplan.sheet.lettering.lettering import (
@@ -33,8 +33,7 @@ LEADING = 1.42  # of the letter size, base line to base line
 RULE_DROP, RULE_PITCH = 0.36, 0.16  # of the letter size: rules under the base line
 
 
-@dataclass(frozen=True)
-class Cell:
+class Cell(NamedTuple):
     """A piece of a row: `x` is its distance from the column's left edge; `rules` are lines below it: after which and
     to the end of which of its letters, and how many."""
 
@@ -153,8 +152,7 @@ def row_items(placed: Sequence[Placed]) -> Iterator[Item]:
                     yield Polyline(THIN, row.layer, row.step, ((left, low), (right, low)))
 
 
-@dataclass(frozen=True)
-class Deviation:
+class Deviation(NamedTuple):
     """Error of a drawn result: in its own unit, and in mm of paper if it is one drawn vector; infinite if no pencil
     follows the drawing."""
 
@@ -332,5 +330,5 @@ def with_tick_box(row: TextRow) -> TextRow:
 def tighten(row: TextRow) -> TextRow:
     """The row where space is short: nearer to the one above, its boxes for numbers lower."""
     if row.boxes and row.tall > TIGHT_BOX_HEIGHT:
-        row = replace(row, tall=TIGHT_BOX_HEIGHT, boxes=tuple(replace(box, top=TIGHT_BOX_HEIGHT) for box in row.boxes))
+        row = replace(row, tall=TIGHT_BOX_HEIGHT, boxes=tuple(box._replace(top=TIGHT_BOX_HEIGHT) for box in row.boxes))
     return replace(row, gap=row.gap / 2)

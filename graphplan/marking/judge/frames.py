@@ -46,11 +46,10 @@ from graphplan.sheet.plates.plans import Plans
 class SheetReading:
     """One way to read a drawing: the `submission` as its traces are taken, and the construction that it is judged by.
 
-    `remarks` say what differs from the task, `scaled` the plan whose k_v is told with that; `prior` is how unlikely it
-    is, in natural logarithms of odds, `departs` how many of the scale and the sense of velocities are others than the
-    task's. `task` is the task's sheet; `asked` are the steps whose marks a drawing is to
-    have, if not all; `exchanged` two traces, by their places, that had each other's letters, which are put right;
-    `numbered` are those whose numbers are left out: each point is to be a mark of the construction.
+    `remarks` say what differs from the task, `scaled` the plan whose k_v is told with that; `departs` is how many of
+    the scale and the sense of velocities are others than the task's. `task` is the task's sheet; `asked` are the steps
+    whose marks a drawing is to have, if not all; `numbered` are the traces, by their places, whose numbers are left
+    out: each point is to be a mark of the construction.
     """
 
     drawing: Construction
@@ -58,10 +57,8 @@ class SheetReading:
     submission: Submission
     remarks: tuple[Said, ...] = ()
     scaled: str = ""
-    prior: float = 0.0
     departs: int = 0
     asked: frozenset[int] | None = None
-    exchanged: tuple[int, ...] = ()
     numbered: frozenset[int] = frozenset()
 
     @cached_property

@@ -19,7 +19,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
 from graphplan.kernel.passes import steps_behind
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.conventions import Proposer, find_orphans, unmirror
+from graphplan.marking.judge.designs import OtherDesigns, find_orphans, unmirror
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained_traces, with_wobble
 from graphplan.marking.judge.frames import FrameFinder, SheetReading, departures, mirror_submission, to_mm
 from graphplan.marking.judge.lettering import is_sure, labelled_steps, name_marks
@@ -106,10 +106,9 @@ class Judge:
         """The way through in the frames that fit best, with the mistakes that make it likelier, letters that marks have
         of each other being put right."""
         matching = self.matching(self.fits, measures.MAX_MISTAKES)
-        put_right = [step for step, place in sorted(self.labels.items()) if place in self.reading.exchanged]
-        pairs = [(put_right[0], put_right[1])] if len(put_right) == 2 else list(exchanged_pairs(matching))
-        self._exchanged = [pair for pair in pairs if put_right or are_surely_lettered(matching, pair)]
-        if pairs and not put_right:
+        pairs = list(exchanged_pairs(matching))
+        self._exchanged = [pair for pair in pairs if are_surely_lettered(matching, pair)]
+        if pairs:
             self.labels |= {step: self.labels[partner] for pair in pairs for step, partner in (pair, pair[::-1])}
             matching = self.matching(self.fits, measures.MAX_MISTAKES)
         return self._with_wrong_arrows(matching)
@@ -210,12 +209,6 @@ class Judge:
                 + measures.UNNAMED_MISTAKE_ODDS * self.unused_numbers
                 + sum(measures.KNOWN_MISTAKE_ODDS if kind else measures.UNNAMED_MISTAKE_ODDS for kind in wrong))
 
-    @cached_property
-    def quick_weight(self) -> float:
-        """Upper bound of the weight, without a search for mistakes: every wrong mark may be one."""
-        matching = self.matching(self.fits)
-        return self._prior + likelihood(matching) + measures.KNOWN_MISTAKE_ODDS * count_wrong(matching.matches)
-
     @property
     def _prior(self) -> float:
         """Prior weight of the reading, and of plans with a scale and a direction of their own."""
@@ -224,7 +217,7 @@ class Judge:
                 if panel != MECHANISM and not fit.tied and panel not in self.submission.frames]
         turned = sum(abs(cmath.phase(fit.frame.unit / frame.unit)) > measures.SAME_DIRECTION_SINE + 3 * fit.turn
                      for fit in free)
-        return self.reading.prior + measures.OWN_FRAME_ODDS * (len(free) + turned)
+        return measures.OWN_FRAME_ODDS * (len(self.reading.remarks) + len(free) + turned)
 
     @property
     def hidden_steps(self) -> set[int]:
@@ -352,42 +345,24 @@ class Judge:
         return Matching(evidence, self.labels, measures.FALSE_ALARM_CHANCE / max(1, len(self.drawing.drawn)))
 
 
-def judge_any_method(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
+def judge_any_design(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
                      plan: str = "") -> Judgement:
-    """Return the judgement of a drawing as the task has it, or as it is likelier meant.
+    """Return the judgement of a drawing by the design of the task, or by the one that explains it best.
 
-    Other readings are thought of only where a mark is wrong or missing: velocities of another scale or sense, and
-    unless `plan` names one, other plans. Fails as :func:`judge` does.
+    Others are thought of only where a mark is wrong or missing; other plans, where `plan` asks for none. Fails as
+    :func:`judge` does.
     """
     refuse_exact_pencil(pencil)
     best = first = Judge(unmirror(drawing, composition, submission, pencil),
                          assumed_pencil(pencil, submission)).with_seen_pencil
-    if best.has_faults:
-        proposer = Proposer(best.reading, replace(best.named, letters=()), best.fits[MECHANISM].frame, pencil, plan)
-        best = _likelier_judge(best, proposer.readings())
+    if first.has_faults:
+        others = OtherDesigns(first.reading, replace(first.named, letters=()), first.fits[MECHANISM].frame, pencil,
+                              plan)
+        for reading in others.readings():
+            with suppress(Refused):  # the mechanism is not found
+                rival = Judge(reading, first.hand)
+                best = rival if rival.explains_more(best) else best
     return (best if best is first else best.with_seen_pencil).judgement
-
-
-def _likelier_judge(best: Judge, readings: Iterable[SheetReading]) -> Judge:
-    """The likeliest of some readings; those alone are looked at closely that promise most at a glance."""
-    rivals = sorted(_judges(readings, best.hand), key=lambda rival: rival.quick_weight)[::-1]
-    looked_at = rivals[:measures.READINGS_LOOKED_AT]
-    remarks = {rival.reading.remarks for rival in looked_at}
-    if len(remarks) == 1:  # they differ in a scale alone
-        looked_at += [rival for rival in rivals if rival.reading.remarks not in remarks][:1]
-    for rival in looked_at:
-        if rival.quick_weight + measures.CLOSER_LOOK_ODDS > best.weight and rival.explains_more(best):
-            best = rival
-    return best
-
-
-def _judges(readings: Iterable[SheetReading], hand: SeenPencil) -> Iterator[Judge]:
-    """The judges of those readings in which the mechanism is found."""
-    for reading in readings:
-        with suppress(Refused):
-            rival = Judge(reading, hand)
-            if rival.fits:
-                yield rival
 
 
 # ---- tasks of which several drawings are right ----------------------------------------------------------------------

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from fractions import Fraction
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 
@@ -32,27 +31,14 @@ SHARP_MM = 1.0  # within which a mark is as sure as any [practice]
 MISSED_MARK_COST = 3.0  # what it speaks against a plan that a mark is missing [tuned]
 KNOWN_MISTAKE_ODDS = -8.0  # of a mistake of the table at a step [tuned]
 UNNAMED_MISTAKE_ODDS = -14.0  # of any other mistake at a step [tuned]
-OWN_FRAME_ODDS = -3.0  # of a plan of its own scale, and of one of its own direction [tuned]
+OWN_FRAME_ODDS = -3.0  # of a plan of its own scale, of its own direction, and of what a design departs in [tuned]
 STRANGE_LETTER_ODDS = -3.0  # of a point with a letter that a reading has no use for [tuned]
 NUMBER_ODDS = 5.0  # what a number that a drawing bears out speaks for its reading [tuned]
-READINGS_LOOKED_AT = 2  # count: other readings that are looked at closely [cost]
-CLOSER_LOOK_ODDS = 20.0  # what a closer look may find that a quick score does not [tuned]
 
 # ---- readings: the conventions and units that a student may have taken ----------------------------------------------
 
-POLAR_PLAN_ODDS = -2.0  # of a polar plan, where orthogonal velocities are asked for [tuned]
-OWN_SCALE_ODDS = -1.0  # of velocities at a scale of the student's own [tuned]
-TURNED_ODDS = -2.0  # of velocities turned the other way [tuned]
-AT_JOINTS_ODDS = -2.0  # of true velocities at their points [tuned]
-MIRRORED_ODDS = -2.0  # of a mirrored sheet [tuned]
-RENUMBERED_ODDS = -2.0  # of steps numbered in another order [tuned]
 MAX_TURN_ERROR_RAD = 0.15  # that a vector may be off a quarter turn [practice]
-# the numbers that scales k_v are, times powers of ten [practice]
-ROUND_SPEEDS = tuple(map(Fraction, (1, 2, 2.5, 4, 5, 8)))
-ROUND_SPEED_SIGMAS = 4.0  # within which a round scale, or a right angle, is meant [defined]
-MAX_SPEED_DENOMINATOR = 10**6  # of a scale k_v as a fraction [defined]
 MIN_VECTOR_MM = 3.0  # the shortest vector that tells a scale [practice]
-POLAR_MARK_MM = 2.0  # how far off its place a mark of a polar plan may be at first sight [practice]
 # each in mm, and what speaks against it, as log odds [tuned]
 DRAWING_UNITS: Mapping[str, tuple[float, float]] = {
     "mm": (1.0, 0.0), "cm": (10.0, 0.3), "m": (1000.0, 0.5), "in": (25.4, 0.5)}

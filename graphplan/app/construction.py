@@ -115,10 +115,10 @@ def construct(scene: Scene, *, checked: bool = True, **options: Unpack[Keywords]
     Fails with `Disagreement` where every way to draw it differs from the solver, with `SingularPose` where there are
     numbers and what is asked does not exist, and with `Refused` where no move of the planner reaches it.
     """
-    from graphplan.app.drafting import wishes_of, with_rounds
+    from graphplan.app.drafting import wishes_of
     from graphplan.check.trusted import construct as trusted
 
-    scene = with_rounds(with_sheet(scene, options))
+    scene = with_sheet(scene, options)
     wishes, reasons = wishes_of(scene)
     drawing = trusted(scene, wishes, checked=checked)
     drawing.notes.extend(reasons)

@@ -85,13 +85,6 @@ def with_sheet(source: Source, keys: Mapping[str, Any]) -> Source:
     return replace(source, sheet=replace(source.sheet, **values))
 
 
-def with_rounds(scene: Scene) -> Scene:
-    """The scene with as many rounds of friction as its sheet asks for, if it does."""
-    if not scene.sheet.rounds or scene.loads is None:
-        return scene
-    return replace(scene, loads=replace(scene.loads, rounds=scene.sheet.rounds))
-
-
 def translate_title(scene: Scene) -> Scene:
     """The scene with its title in the sheet's language."""
     from graphplan.words.tongue import tongue
@@ -137,7 +130,7 @@ def drawable(scene: Scene) -> Report:
     from graphplan.check.json_results import reasons
     from graphplan.phrases import said
 
-    result = report_regular_part(translate_title(with_rounds(scene)), make_report)
+    result = report_regular_part(translate_title(scene), make_report)
     left_out = dict[str, list[str]]()
     if result.given_scene is not result.scene:
         for named in reasons(result).values():

@@ -9,7 +9,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Unpack
 
-from graphplan.app.drafting import Keywords, make_report, pencil, wishes_of, with_rounds, with_sheet
+from graphplan.app.drafting import Keywords, make_report, pencil, wishes_of, with_sheet
 from graphplan.app.files import as_json, kind, write
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Frozen, NamedValues
@@ -144,7 +144,6 @@ def solve(scene: Scene, *, exact: bool = False, digits: int | None = None, bound
 def find_results(scene: Scene, *, exact: bool = False, digits: int | None = None, bounds: bool = False,
                  errors: bool = False) -> Results:
     """Solve a scene; with the `errors` that its pencil makes."""
-    scene = with_rounds(scene)
     if digits is not None:
         return Results(scene, as_json(_certified_data(scene, digits, exact), 2))
     return Results(scene, as_json(_data(scene, exact, bounds, errors), 2))

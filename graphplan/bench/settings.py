@@ -79,7 +79,7 @@ def _rounds(pencil: Pencil) -> Iterator[Setting]:
     for times in FRICTION:
         rough = replace(scene.loads, frictions=tuple(replace(friction, coefficient=times * friction.coefficient)
                                                      for friction in scene.loads.frictions))
-        drawings = [construct(replace(scene, loads=replace(rough, rounds=rounds)))
+        drawings = [construct(replace(scene, loads=rough, sheet=replace(scene.sheet, rounds=rounds)))
                     for rounds in (*range(1, MAX_ROUNDS + 1), STANDING_ROUNDS)]
         smooth = construct(replace(scene, loads=replace(rough, frictions=())))
         smooth_balance, *balances, standing = (drawing.balances[0] for drawing in (smooth, *drawings))

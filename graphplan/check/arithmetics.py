@@ -257,7 +257,7 @@ def decide_friction(scene: Scene, exact: bool = False) -> tuple[Scene, str]:
     with suppress(GraphplanError, ArithmeticError):
         scene = replace(scene, loads=replace(loads, resting=_resting_pairs(scene)))
     try:
-        standing = with_friction(scene, loads.rounds, exact)
+        standing = with_friction(scene, scene.sheet.rounds, exact)
     except SingularPose as singular:
         return smooth, singular.why
     return replace(scene, loads=replace(required_loads(scene), pressed=pressed_slides(standing))), ""

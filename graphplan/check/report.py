@@ -90,7 +90,7 @@ class ReferenceSolution:
         if self.rounds is None or loads is None or not (loads.frictions
                                                         and any(drive.rate for drive in self.scene.drives)):
             return None
-        return self.rounds(rounds or loads.rounds or STANDING_ROUNDS)
+        return self.rounds(rounds or self.scene.sheet.rounds or STANDING_ROUNDS)
 
 
 def reference_solution(scene: Scene, by: Arithmetic) -> ReferenceSolution:

@@ -228,7 +228,7 @@ def poses_rubbed_as_drawn(batch: PoseBatch, drawing: Construction) -> Any:
         try:
             rubbed[k] = still_throughout or drawn.resting <= resting(solve(scene), vanishes)
             if rubbed[k] and given.bear_on_lengths:
-                rubbed[k] = pressed_slides(with_friction(scene, given.rounds)) == drawn.pressed
+                rubbed[k] = pressed_slides(with_friction(scene, scene.sheet.rounds)) == drawn.pressed
         except GraphplanError:
             rubbed[k] = False
     return rubbed

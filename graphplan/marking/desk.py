@@ -365,8 +365,7 @@ class Desk:
 
 def _mechanism(scene: Scene) -> Scene:
     """A scene without what its sheet and its title say."""
-    loads = replace(scene.loads, rounds=0) if scene.loads else None
-    return replace(scene, title="", source="", name="", sheet=Presentation(), vary={}, loads=loads, assembly=None)
+    return replace(scene, title="", source="", name="", sheet=Presentation(), vary={}, assembly=None)
 
 
 def printable(name: str) -> str:

@@ -322,10 +322,9 @@ class Screw:
 class Loads:
     """Forces, moments, masses and losses that act on the links: gravity in m/s^2, all else in the scene's units.
 
-    `rounds` is how many rounds of friction are asked for; 0 means as many as it takes. `resting` are the names of the
-    pairs that are known to stand still: nothing rubs in them. `pressed` are the slides, by name, that are known to be
-    pressed at both edges, with 1 where the friction angles there meet on the left of the guide, or -1; None where that
-    is not known.
+    `resting` are the names of the pairs that are known to stand still: nothing rubs in them. `pressed` are the slides,
+    by name, that are known to be pressed at both edges, with 1 where the friction angles there meet on the left of the
+    guide, or -1; None where that is not known.
     """
 
     gravity: Pair
@@ -334,7 +333,6 @@ class Loads:
     moments: tuple[Moment, ...]
     balances: tuple[Balance, ...]
     frictions: tuple[Friction, ...] = ()
-    rounds: int = 0
     resting: frozenset[str] = frozenset()
     screws: tuple[Screw, ...] = ()
     pressed: Mapping[str, int] | None = None

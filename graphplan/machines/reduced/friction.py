@@ -361,8 +361,7 @@ def kinetostatic(scene: Scene, speed: float) -> Scene:
 
 def with_rounds(scene: Scene, rounds: int) -> Scene:
     """The scene with so many rounds of friction."""
-    assert scene.loads is not None
-    return replace(scene, loads=replace(scene.loads, rounds=rounds))
+    return replace(scene, sheet=replace(scene.sheet, rounds=rounds))
 
 
 def weights_alone(scene: Scene, loads: Loads) -> Loads:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any, Unpack
 
-from graphplan.app.drafting import Keywords, make_report, on_paper, translate_title, with_rounds, with_sheet
+from graphplan.app.drafting import Keywords, make_report, on_paper, translate_title, with_sheet
 from graphplan.errors import Refused
 from graphplan.marking.classroom.class_files import ClassRequest, ClassWork, write_class
 from graphplan.mechanism.model import Scene
@@ -56,5 +56,5 @@ def _class_of_scene(scene: Scene, keys: Mapping[str, Any]) -> ClassWork:
 
 def draft_scene(keys: Mapping[str, Any], scene: Scene) -> Drafted:
     """A scene on its sheet, with these keys of [sheet]; fails as `graphplan draw` does."""
-    scene = translate_title(with_rounds(with_sheet(scene, keys)))
+    scene = translate_title(with_sheet(scene, keys))
     return on_paper(scene, make_report(scene))

@@ -187,22 +187,22 @@ class Loaded(Draughtsman):
     def _rounds(self, velocity: Velocity, loading: Loading, forces: DrawnForces) -> DrawnForces:
         """The forces of the last round of friction, of as many as are asked for, or until they stand."""
         rubbed, stands = Rubbed(velocity, loading, forces), False
-        asked = self.loads.rounds or MOST_ROUNDS
-        while forces.number < asked and not stands:
+        wished = self.scene.sheet.rounds
+        while forces.number < (wished or MOST_ROUNDS) and not stands:
             with self.board.on(retell=partial(in_round, forces.number + 1)):
                 forces = groups.reactions(self.board, rubbed.pose, loading, self.plans.rough, self.way, forces)
             with self.board.on(retell=partial(in_round, forces.number + 1)):
                 rubbed, last = Rubbed(velocity, loading, forces), rubbed
             self.shown += forces.shown
             try:
-                stands = not self.loads.rounds and last.stands(rubbed, self._mark_values)
+                stands = not wished and last.stands(rubbed, self._mark_values)
             except ConstructionError:  # whoever reads the numbers is told
                 break
         before = len(forces.shown)
         self._draw_arms(forces)
         self._note(groups.results_with_friction(self.scene, loading, forces, self.board), forces.shown[before:])
         self.rounds = forces.number
-        if self.loads.rounds:
+        if wished:
             self.notes.append(said("friction: rounds drawn, as asked: {0}", forces.number))
         elif stands:
             self.notes.append(said("friction: the forces no longer change after round {0}", forces.number))

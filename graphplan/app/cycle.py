@@ -13,7 +13,7 @@ examples:
   graphplan cycle jaanimets-10 --positions 360 -o forces.csv --plot rocker.svg --of 3
   graphplan cycle kinytskyi --positions 90 --plot loads.pdf --of "reaction C" --of balance --of efficiency
   graphplan cycle kinytskyi --positions 90 --plot bearing.svg --of "reaction O" --polar
-  graphplan cycle kinytskyi --positions 90 --plot family.svg --of balance --vary moments.0.value=10,20,40
+  graphplan cycle kinytskyi --positions 90 --plot family.svg --of balance --vary moments.0.value=-10,-20,-40
   graphplan cycle plough-lift --positions 50 --from 0 --to 80 -o lift.npz
   graphplan cycle four-bar --animate four-bar.gif
   graphplan cycle four-bar --positions 90 --curves M --centrodes "2 frame" --paths curves.svg -o curves.json

@@ -23,6 +23,7 @@ NAMES = {  # of the core, by their modules; a name is imported when it is first 
     "graphplan.methods.construction": "Construction",
     "graphplan.app.construction": "MotionSeries MotionStream PoseSeries WorkingDrawing construct follow",
     "graphplan.app.pages": "handout",
+    "graphplan.app.report": "report",
     "graphplan.app.results": "Results solve",
     "graphplan.app.subjects": "Subject",
 }

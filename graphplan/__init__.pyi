@@ -4,6 +4,7 @@ from graphplan import cycle, sheet
 from graphplan.app import analytic
 from graphplan.app.construction import MotionSeries, MotionStream, PoseSeries, WorkingDrawing, construct, follow
 from graphplan.app.pages import handout
+from graphplan.app.report import report
 from graphplan.app.results import Results, solve
 from graphplan.app.subjects import Subject
 from graphplan.cams.subject import cam
@@ -35,5 +36,5 @@ __all__ = [
     "NoMechanism", "PoseSeries", "Refused", "Results", "Scene", "SceneError", "SingularPose", "Subject", "Summary",
     "SynthesisResults", "WorkingDrawing", "WrittenScene",
     "analytic", "at", "balance", "cam", "construct", "cycle", "flywheel", "follow", "handout", "live", "load", "motion",
-    "parse", "position_errors", "scene", "sheet", "solve", "synthesize", "variants", "verify",
+    "parse", "position_errors", "report", "scene", "sheet", "solve", "synthesize", "variants", "verify",
 ]

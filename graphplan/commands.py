@@ -31,6 +31,7 @@ CORE = {  # the commands of the core; leaves have further ones
     "check": Command("construct", "graphplan.app.check"),
     "cost": Command("construct", "graphplan.app.cost"),
     "cycle": Command("move", "graphplan.app.cycle"),
+    "report": Command("machine", "graphplan.app.report"),
     "handout": Command("teach", "graphplan.app.handout"),
     "completion": Command("share", "graphplan.app.completion", takes_scene=False),
 }

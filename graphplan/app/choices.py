@@ -121,7 +121,7 @@ def add_settings(command: argparse.ArgumentParser) -> None:
     """The option that changes values of the scene, by their paths."""
     command.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", dest="settings",
                          help="another value in the scene, such as points.A.angle=40, sheet.frame=gost or "
-                         "sheet.curves=all; places in lists count from 0")
+                         "sheet.curves=all; places in lists count from 0, and * is each")
 
 
 def add_travel(command: argparse.ArgumentParser) -> None:

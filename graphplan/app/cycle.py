@@ -13,7 +13,7 @@ examples:
   graphplan cycle jaanimets-10 --positions 360 -o forces.csv --plot rocker.svg --of 3
   graphplan cycle kinytskyi --positions 90 --plot loads.pdf --of "reaction C" --of balance --of efficiency
   graphplan cycle kinytskyi --positions 90 --plot bearing.svg --of "reaction O" --polar
-  graphplan cycle kinytskyi --positions 90 --plot family.svg --of balance --vary moments.0.value=10,20,40
+  graphplan cycle kinytskyi --positions 90 --plot family.svg --of balance --vary moments.0.value=-10,-20,-40
   graphplan cycle plough-lift --positions 50 --from 0 --to 80 -o lift.npz
   graphplan cycle four-bar --animate four-bar.gif
   graphplan cycle four-bar --positions 90 --curves M --centrodes "2 frame" --paths curves.svg -o curves.json
@@ -54,9 +54,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("--positions", type=count("--positions", 1), metavar="N",
         help=f"how many poses; without it an animation has {DEFAULT_POSES}")
-    add("--from", type=float, dest="start", metavar="A",
-        help="a range of the first drive's travel from the given pose, in degrees or lengths; without it one full turn")
-    add("--to", type=float, dest="end", metavar="B", help="the end of the range, which is a pose too")
+    add_span(add)
     add("-o", "--output", metavar="FILE", help=".csv, .npz or .json; else comma-separated text on standard output")
     add_curves(command)
     add("--paths", metavar="FILE.svg", help="the mechanism with the paths and centrodes that are asked for")
@@ -70,18 +68,13 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     from graphplan.check.cycle import Cycle, cycle, cycle_blocks
 
-    if (options.start is None) != (options.end is None):
-        raise Refused("range", "only one of --from and --to is given", "both, or neither for a full turn")
+    span = span_of(options)
     ending = kind(options.output, ENDINGS, "table")
     plot_ending = kind(options.plot, PLOT_ENDINGS, "plot", "--plot")
     kind(options.paths, PATH_ENDINGS, "drawing", "--paths")
     check_plot(options)
     check_animation(options)
     refuse_same_output(options.output, options.plot, options.animate, options.paths)
-    span = None if options.start is None else (options.start, options.end)
-    if span and max(map(abs, span)) > MAX_TRAVEL:
-        raise Refused(f"--from {span[0]:g} --to {span[1]:g}", "too far: every turn is followed",
-                      f"at most {MAX_TRAVEL} degrees or lengths")
     if options.paths:
         write(_paths(options), options.paths)
     if options.animate:
@@ -113,6 +106,24 @@ def run(options: argparse.Namespace) -> int:
     if options.plot:
         write(plot_file(options, members, cycles, plot_ending), options.plot)
     return max(report.tell(messages, member.label) for member, report in zip(members, reports, strict=True))
+
+
+def add_span(add: Callable[..., Any], whole: str = "one full turn") -> None:
+    """The options of a range of the travel, instead of the `whole`."""
+    add("--from", type=float, dest="start", metavar="A",
+        help=f"a range of the first drive's travel from the given pose, in degrees or lengths; without it {whole}")
+    add("--to", type=float, dest="end", metavar="B", help="the end of the range, which is a pose too")
+
+
+def span_of(options: argparse.Namespace) -> tuple[float, float] | None:
+    """The range of the travel that is asked for; fails with `Refused` where it is no range, or too far."""
+    if (options.start is None) != (options.end is None):
+        raise Refused("range", "only one of --from and --to is given", "both, or neither for a full turn")
+    span = None if options.start is None else (options.start, options.end)
+    if span and max(map(abs, span)) > MAX_TRAVEL:
+        raise Refused(f"--from {span[0]:g} --to {span[1]:g}", "too far: every turn is followed",
+                      f"at most {MAX_TRAVEL} degrees or lengths")
+    return span
 
 
 def _paths(options: argparse.Namespace) -> str:

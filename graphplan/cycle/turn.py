@@ -351,7 +351,7 @@ def loop(scene: Scene, count: int, span: tuple[float, float] | None = None) -> L
         motion, ends = RangeOfMotion(scene, min(0.0, low), max(0.0, high), closed=False), (low, high)
     if motion.goes_round:
         return Loop(motion.turn(motion.ends[1] * np.arange(count) / count), range(count))
-    low, high = _reachable_span(motion, *ends)
+    low, high = reachable_span(motion, *ends)
     half = count // 2
     travel = (low + high) / 2 - (high - low) / 2 * np.cos(np.pi * np.arange(half + 1) / max(1, half))
     first = int(np.argmin(np.abs(travel)))
@@ -361,7 +361,7 @@ def loop(scene: Scene, count: int, span: tuple[float, float] | None = None) -> L
     return Loop(motion.turn(travel), back[first:] + back[:first])
 
 
-def _reachable_span(motion: RangeOfMotion, low: float, high: float) -> tuple[float, float]:
+def reachable_span(motion: RangeOfMotion, low: float = -math.inf, high: float = math.inf) -> tuple[float, float]:
     """The travels between which it goes: as far as it can within these ends, and not quite to limits."""
     path = motion.path
     least, most = motion.ends

@@ -29,6 +29,7 @@ from graphplan.mechanism.scene_text import KEPT_TEXTS, decimal_text, is_number_a
 from graphplan.mechanism.units import Units
 
 BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
+EACH = "*"  # in a path: every place of a list
 
 
 def toml_text(tables: Mapping[str, Any]) -> str:
@@ -112,7 +113,7 @@ def _is_decimal(number: Fraction) -> bool:
 def with_value(tables: Mapping[str, Any], path: str, value: object) -> dict[str, Any]:
     """The tables with another value at a path, such as points.A.angle, links.2 or drive.0.omega.
 
-    The last key may be new, and so may a table of the whole scene; fails with `Refused` where nothing else leads there.
+    In a list * is each place. The last key may be new, and so may a table of the whole scene; fails with `Refused` where nothing else leads there.
     """
     first, *more = path_parts(path) or ("",)
     if not more:
@@ -124,11 +125,11 @@ def _change_within(inner: Any, keys: Sequence[str], value: object, path: str) ->
     """Return a value with another value at the place that keys lead to."""
     key, more = keys[0], keys[1:]
     if isinstance(inner, list):
-        places = [str(place) for place in range(len(inner))]
-        if key not in places:
-            raise Refused(path, f"there is no place {key} in a list of {len(inner)}", "places count from 0")
-        new = value if not more else _change_within(inner[int(key)], more, value, path)
-        return [new if str(place) == key else entry for place, entry in enumerate(inner)]
+        if key not in (EACH, *map(str, range(len(inner)))):
+            raise Refused(path, f"there is no place {key} in a list of {len(inner)}",
+                          f"places count from 0, and {EACH} is each")
+        return [entry if key not in (EACH, str(place)) else value if not more else
+                _change_within(entry, more, value, path) for place, entry in enumerate(inner)]
     if not isinstance(inner, Mapping) or (more and key not in inner):
         known = [*map(str, inner)] if isinstance(inner, Mapping) else []
         remedy = suggestion(key, known, "key") if known else "a path that leads to a value of the scene"
@@ -146,8 +147,9 @@ class WrittenScene(Scene):
     by_drive: bool = False
 
     def replace(self, path: str | Mapping[str, object], value: object = None) -> WrittenScene:
-        """The scene with another value at a path, as in [vary]: points.A.angle, drive.0.omega, find.velocity; or with
-        several, as a mapping of values by paths, which in a loop is faster than one after the other.
+        """The scene with another value at a path, as in [vary]: points.A.angle, drive.0.omega, find.velocity, and
+        friction.*.coefficient of each friction; or with several, as a mapping of values by paths, which in a loop is
+        faster than one after the other.
 
         Lengths are in the scene's units and angles in degrees, as they are written there. Where a number takes the
         place of a number, comments and layout stay. Fails with :class:`SceneError` where the scene is faulty then, and

@@ -197,7 +197,7 @@ class Largest:
     def rms(self) -> float:
         return math.sqrt(self.squares / self.count)
 
-    def joined(self, other: Largest) -> Largest:
+    def merge(self, other: Largest) -> Largest:
         """The same of these poses and of others after them."""
         larger = max(self, other, key=lambda one: abs(one.value))
         return replace(larger, squares=self.squares + other.squares, count=self.count + other.count)
@@ -225,7 +225,7 @@ class LargestLoads:
                 k = int(np.nanargmax(sizes))
                 largest = Largest(values[k].item(), self.poses + k, float(travels[k]), float(np.nansum(sizes**2)),
                                   int(np.isfinite(sizes).sum()))
-                self.by_name[name] = self.by_name[name].joined(largest) if name in self.by_name else largest
+                self.by_name[name] = self.by_name[name].merge(largest) if name in self.by_name else largest
         self.poses += len(travels)
 
     @property

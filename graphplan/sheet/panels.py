@@ -259,6 +259,8 @@ class PanelSheet:
     steps: str = "told"
     steps_apart: bool = False
     lengths: Lengths | None = None
+    first: int = 1
+    of: int = 0
 
     @property
     def scene(self) -> Scene:
@@ -279,7 +281,7 @@ class PanelSheet:
         for rows, later in (*ways, (summary + tables, steps), (summary, tables + steps)):
             if (placed := self._place_words(rows)) is not None:
                 further = self.pages_of_words(later, 1) if later else []
-                return [self._sheet(self.page.panels, [*self._frame_items(self.page.title, 1, 1 + len(further)),
+                return [self._sheet(self.page.panels, [*self._frame_items(self.page.title, 0, 1 + len(further)),
                                                        *self._panel_items(), *row_items(placed)]), *further]
         return None
 
@@ -293,7 +295,7 @@ class PanelSheet:
         page = words_page(paper, frame, block)
         filled = paginate_tightly([row.enlarge(self.page.letters.times) for row in rows], page)
         return [self._sheet({}, [*self._frame_items(page.title, number, earlier + len(filled)), *row_items(placed)])
-                for number, placed in enumerate(filled, earlier + 1)]
+                for number, placed in enumerate(filled, earlier)]
 
     def _sheet(self, panels: Mapping[Panel, Rect], items: Iterable[Item]) -> Sheet:
         """A page with what is on it as one display list."""
@@ -304,11 +306,11 @@ class PanelSheet:
                      tuple(back_to_front(items)), self.scene.title, self.tongue(self.description), sentences,
                      self.scales, self.tongue.code, self.scene.text, program.givens)
 
-    def _frame_items(self, title: Rect, number: int, of: int) -> Iterator[Item]:
-        """The frame and the title block of one page of so many."""
+    def _frame_items(self, title: Rect, earlier: int, of: int) -> Iterator[Item]:
+        """The frame and the title block of the page after so many earlier ones of the sheet's own."""
         (frame, block), paper = self.page.frame, self.page.paper
         yield from frame.items(paper, self.page.space, self.tongue)
-        page = Page(self.document, paper, self.tongue(self.scale), number, of)
+        page = Page(self.document, paper, self.tongue(self.scale), self.first + earlier, self.of or of)
         yield from block.on_paper(paper).items(title, page)
 
     def _panel_items(self) -> Iterator[Item]:
@@ -330,9 +332,10 @@ class PanelSheet:
         """Rows with what is given and found."""
         sections = (said("Given"), self.given, GIVEN), (self.found_heading, self.found, FOUND)
         return [replace(row, layer=layer) for heading, contents, layer in sections if contents
-                for row in (self._heading(heading), *(row for words in contents for row in self.rows_of(words)))]
+                for row in (self.heading(heading), *(row for words in contents for row in self.rows_of(words)))]
 
-    def _heading(self, words: Said, size: float = HEADING, gap: float = HEADING_GAP_MM) -> TextRow:
+    def heading(self, words: Said, size: float = HEADING, gap: float = HEADING_GAP_MM) -> TextRow:
+        """A row with a heading."""
         heading = Cell(0.0, sentence_runs(self.tongue(words)), bold=True)
         return TextRow((heading,), size=size, gap=gap, keep=2)
 
@@ -356,14 +359,14 @@ class PanelSheet:
         """The construction in words."""
         if not self.steps:
             return []
-        rows = [self._heading(said("Construction")), *self._steps()]
+        rows = [self.heading(said("Construction")), *self._steps()]
         return [with_tick_box(row) if self.steps == "ticked" and len(row.cells) > 1 else row for row in rows]
 
     def _steps(self) -> Iterator[TextRow]:
         """Stage by stage what is done in it, each kind of step once, and which steps are the same elsewhere."""
         program = self.values.drawing.program
         for stage, steps in program.stages:
-            yield self._heading(stage.title, SIZE, HEADING_GAP_MM / 2)
+            yield self.heading(stage.title, SIZE, HEADING_GAP_MM / 2)
             yield from self.rows_of(arrange("{0:capital}.", stage.law))
             told_once = self.told_once is None or steps[0].panel in self.told_once
             for spoken, repeated in without_repetitions(steps) if told_once else [(steps, ())]:

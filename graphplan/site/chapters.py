@@ -222,7 +222,7 @@ GROUPS = {
     "Scenes": "scene load parse at Scene WrittenScene",
     "Constructions and results": "construct solve Construction WorkingDrawing Results",
     "Poses": "follow PoseSeries MotionSeries MotionStream Summary",
-    "Machines and cams": "flywheel motion balance cam synthesize position_errors Subject SynthesisResults",
+    "Machines and cams": "report flywheel motion balance cam synthesize position_errors Subject SynthesisResults",
     "Teaching and sharing": "handout live variants verify Findings",
     "Modules": "analytic cycle sheet",
     "Errors": "GraphplanError SceneError Refused SingularPose NoMechanism Disagreement ConstructionError",

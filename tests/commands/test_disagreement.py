@@ -48,6 +48,7 @@ def test_a_rule_that_is_wrong_in_the_25th_digit_is_caught(name: str, op: str, mo
 @pytest.mark.parametrize("line", [
     "solve four-bar -q", "check four-bar -q", "check four-bar --json", "steps four-bar", "draw four-bar -o out.svg",
     "export four-bar -o out.tex", "handout four-bar -o out.pdf", "live four-bar -o out.html",
+    "report four-bar -o out.pdf",
     "cycle four-bar --positions 3 -o out.csv", "cost four-bar",
 ])
 def test_a_disagreement_is_status_1_and_writes_nothing(line: str, tmp_path: Path,

@@ -235,7 +235,7 @@ def test_unknown_options_and_bad_numbers_are_one_line(command: str, tmp_path: Pa
     monkeypatch.chdir(tmp_path)
     options, arguments = takes(command)
     given = LONG.get(command) or [NEEDED.get(argument, "bash") for argument in arguments]
-    output = ["-o", "x.html"] if command in ("export", "live", "handout", "import", "variants") else []
+    output = ["-o", "x.html"] if command in ("export", "live", "handout", "import", "report", "variants") else []
     done = ran(command, *given, *output, "--zzz")
     assert (done.status, done.out, done.err.count("\n")) == (2, "", 1), done.err
     assert "--zzz" in done.err

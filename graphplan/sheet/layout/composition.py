@@ -69,19 +69,20 @@ Words = Measure[list[TextRow]] | None  # that stand beside the plans
 @dataclass(frozen=True)
 class Composition:
     """An arrangement with the scale and the window of each panel, and the plans in them; `protocol` are the pages of
-    the words where they stand apart, `further` the number of pages that follow."""
+    the words where they stand apart, `earlier` and `further` the numbers of pages before and after it."""
 
     arrangement: Arrangement
     scales: Scales
     views: dict[str, View]
     plans: Plans
     protocol: tuple[Protocol, ...] = ()
+    earlier: int = 0
     further: int = 0
 
     @property
     def page_count(self) -> int:
         """Number of pages."""
-        return 1 + len(self.protocol) + self.further
+        return self.earlier + 1 + len(self.protocol) + self.further
 
     @cached_property
     def plates(self) -> Plates:

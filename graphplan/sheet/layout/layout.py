@@ -60,7 +60,8 @@ def sheet(composition: Composition, items: Iterable[Item], document: Said) -> Sh
     arrangement = composition.arrangement
     return sheet_of_items(composition, [*items, *row_items(fill(arrangement.rows, arrangement.columns) or []),
                                         *arrangement.fact_items,
-                                        *title_items(composition, document, 1, composition.page_count)])
+                                        *title_items(composition, document, composition.earlier + 1,
+                                                     composition.page_count)])
 
 
 def plans_sheet(composition: Composition, items: Iterable[Item] = ()) -> Sheet:
@@ -90,7 +91,7 @@ def pages(composition: Composition, document: Said = CONSTRUCTION) -> list[Sheet
 
 def words_pages(first: Sheet, composition: Composition, document: Said) -> Iterator[Sheet]:
     """The pages of words that follow a first sheet."""
-    for number, (page, placed_rows) in enumerate(composition.protocol, 2):
+    for number, (page, placed_rows) in enumerate(composition.protocol, composition.earlier + 2):
         apart = replace(composition, arrangement=page)
         items = back_to_front([*frame_items(apart), *row_items(placed_rows),
                                *title_items(apart, document, number, composition.page_count)])

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from graphplan.mechanism.load_values import spring_laws, spring_numbers
-from graphplan.mechanism.loads import ZERO, LoadTable
+from graphplan.mechanism.loads import FORWARD, RETURN, ZERO, LoadTable
 from graphplan.mechanism.model import FRAME, Drive, Force, Friction, Gear, Scene, Wedge
 from graphplan.mechanism.order import changing_loads, named_forces, named_moments
 from graphplan.mechanism.units import Dimension
@@ -435,7 +435,11 @@ def _law(table: LoadTable) -> Said:
     law = said("a load over {0}, in {1} rows", over, len(given_rows))
     rows = join([arrange("({0}; {1})", *map(given_number, row)) for row in given_rows])
     law = arrange("{0}: {1}", law, rows) if len(given_rows) <= MAX_TABLE_ROWS else law
-    return arrange("{0}; {1}", law, said("zero beyond them")) if table.beyond == ZERO else law
+    limits = [said("zero beyond them")] if table.beyond == ZERO else []
+    if table.during in (FORWARD, RETURN):
+        limits.append(said("on the forward stroke alone") if table.during == FORWARD else
+                      said("on the return stroke alone"))
+    return join((law, *limits), "; ")
 
 
 def _apart(scene: Scene, names: Sequence[str]) -> list[str]:

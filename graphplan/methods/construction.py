@@ -15,8 +15,9 @@ from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander
 from graphplan.kernel.faithful import Faithful, faithful
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.numbers import Floats
-from graphplan.kernel.passes import Compound, Drawing, Values, order_by_reasoning
+from graphplan.kernel.passes import Compound, Drawing, Values
 from graphplan.kernel.program import EVERYWHERE, Panel, Program, Step, Window, on_pose, shift_steps
+from graphplan.kernel.reasoning import order_by_reasoning
 from graphplan.kernel.tolerances import FORM_TOL
 from graphplan.mechanism.model import Scene
 from graphplan.methods import kinds
@@ -145,7 +146,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
     @cached_property
     def _drawn_out(self) -> tuple[Program, Sequence[Any], list[int]]:
         """The program in single movements, the values of its steps, and the place of each among those drawn out."""
-        program, order = order_by_reasoning(self._expander.run())
+        program, order = order_by_reasoning(self._expander.run(), self._expander.serves)
         values, origin = [self._expander.values[index] for index in order], self.program.origin
         if origin is None:
             return program, values, order

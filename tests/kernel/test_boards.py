@@ -23,8 +23,9 @@ from graphplan.kernel import LINE, OPENING, POINT, TABLE, Board, Mark, Program
 from graphplan.kernel.expand import Expander
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.numbers.arrays import Arrays
-from graphplan.kernel.passes import freeze, order_by_reasoning, prune
+from graphplan.kernel.passes import freeze, prune
 from graphplan.kernel.program import Panel, PlansApart, evaluate
+from graphplan.kernel.reasoning import order_by_reasoning
 
 MECHANISM, N_PLAN = Panel("mechanism"), Panel("N-plan")
 
@@ -75,7 +76,7 @@ def test_gathering_changes_only_the_order(r: Random) -> None:
     """Steps gathered plan by plan are the same steps, each after what it reads."""
     board, marks = scribble(r)
     program = freeze(board, r.sample(marks, 3))
-    ordered, places = order_by_reasoning(program)
+    ordered, places = order_by_reasoning(program, range(len(program)))
     assert sorted(places) == list(range(len(program)))
     assert [program.steps[k].op for k in places] == [step.op for step in ordered.steps]
     assert [places[k] for k in ordered.wanted] == list(program.wanted)
@@ -316,7 +317,7 @@ def test_a_trial_figure_begins_on_the_plan_of_its_locus() -> None:
     locus = board.carry(A, board.line(o, p), B, board.line(o, q), C, turn="perpendicular")
     program = freeze(board, [locus])
     expander = Expander(program, evaluate(program, Floats()), prefer=lambda panel: "trial figure")
-    ordered, _ = order_by_reasoning(expander.run())
+    ordered, _ = order_by_reasoning(expander.run(), expander.serves)
     picks = [step for step in ordered.steps if step.op.name == "pick"]
     assert picks
     assert {ordered.steps[arg].panel for step in picks for arg in step.args} == {N_PLAN}

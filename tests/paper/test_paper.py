@@ -21,7 +21,7 @@ LOADED = ["--plan lever", "--plan polygons", "--plan polar,lever", "--inertia sh
           "--inertia percussion", "--inertia static"]
 # beside the first 30 those in which forces or motions vanish but for rounding, or marks coincide, and those in which
 # arcs, velocities or centres of oscillation would leave the paper
-SEEDS = *range(30), 63, 71, 213, 270
+SEEDS = *range(30), 63, 71, 213, 270, 321
 FAR = [(205, 0, "--strict"), (5014, 3, "--inertia shifted"), (5015, 2, ""), (5031, 0, "--method auxiliary"),
        (5032, 1, "--inertia points")]
 CROSSING = "lies on the"  # what is said of a step that reads a mark of another plan

@@ -25,8 +25,9 @@ from itertools import groupby, takewhile
 from typing import Any, NamedTuple
 
 from graphplan.kernel.kinds import Movement, Primitive, plain
-from graphplan.kernel.passes import Compound, home_plan
+from graphplan.kernel.passes import Compound
 from graphplan.kernel.program import Panel, Program, Step
+from graphplan.kernel.reasoning import home_plan
 from graphplan.kernel.stages import Equation, Stage
 from graphplan.mechanism.order import turning_drives
 from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, VELOCITY_PLAN, ForcePlan, LeverPlan, TrianglePlan

@@ -279,10 +279,11 @@ def make_report(options: argparse.Namespace, scene: Scene, **more: Any) -> Repor
     return drafting.make_report(scene, drawing_options(options), **more)
 
 
-def on_paper(options: argparse.Namespace, result: Report | None = None) -> Drafted:
-    """A construction on its sheet, drawn with the pencil and in the language that are asked for."""
+def on_paper(options: argparse.Namespace, result: Report | None = None, *, words: bool = True) -> Drafted:
+    """A construction on its sheet, drawn with the pencil and in the language that are asked for, with or without pages
+    of words."""
     scene = load_scene(options) if result is None else result.scene
-    drafted = drafting.on_paper(scene, drawing_options(options), result)
+    drafted = drafting.on_paper(scene, drawing_options(options), result, words=words)
     for line in drafted.drawing.missing:
         Messages(options.quiet).remark(f"{options.scene}: {line}")
     return drafted

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, TypedDict, TypeVar
 from graphplan.errors import ConstructionError, Disagreement, Refused, SingularPose
 from graphplan.mechanism.fields import suggestion
 from graphplan.mechanism.pairs.pair import FRAME
+from graphplan.mechanism.sections import BESIDE_PLANS, NO_WORDS
 from graphplan.methods.design import Design
 from graphplan.words import LANGUAGES
 
@@ -91,7 +92,6 @@ def options_of(keywords: Mapping[str, object]) -> Options:
 
 
 Source = TypeVar("Source", bound="Scene | SheetTask")
-AUTO = "auto"  # words stand beside the plans, or on pages of their own where these need the room
 
 
 def with_rounds(scene: Scene, options: Options) -> Scene:
@@ -199,15 +199,17 @@ def wishes_of(scene: Scene, options: Options) -> tuple[Design, tuple[str, ...]]:
     return replace(wishes, method=form.method), form.remarks
 
 
-def on_paper(scene: Scene, options: Options, result: Report | None = None) -> Drafted:
-    """A construction on its sheet, drawn with the pencil and in the language that are asked for."""
+def on_paper(scene: Scene, options: Options, result: Report | None = None, *, words: bool = True) -> Drafted:
+    """A construction on its sheet, drawn with the pencil and in the language that are asked for; without `words` it has
+    no pages of these."""
     from graphplan.accuracy.drafted import draft
     from graphplan.words.tongue import tongue
 
     result = result or drawable(scene, options)
     sheet = result.scene.sheet
+    protocol = options.protocol or sheet.protocol
     return draft(result.drawing, pencil(options, scene), check=result.check, tongue=tongue(sheet.language),
-                 protocol=options.protocol or sheet.protocol or AUTO)
+                 protocol=protocol if words or protocol == BESIDE_PLANS else NO_WORDS)
 
 
 def pencil(options: Options, source: Scene | SheetTask | None = None) -> Pencil:

@@ -49,11 +49,12 @@ def _class_of_scene(scene: Scene, options: Options) -> ClassWork:
 
     draw = partial(draft_scene, options)
     drafted = draw(scene)
-    return ClassWork(partial(SceneDesign, drafted, draw), partial(print_exercise, draw=draw, further=key_rows),
+    return ClassWork(partial(SceneDesign, drafted, partial(draw, words=False)),
+                     partial(print_exercise, draw=draw, further=key_rows),
                      lambda lines: [*overview(drafted.composition, lines)], drafted.drawing.scene.title)
 
 
-def draft_scene(options: Options, scene: Scene) -> Drafted:
-    """A scene on its sheet, as the options say; fails as `graphplan draw` does."""
+def draft_scene(options: Options, scene: Scene, *, words: bool = True) -> Drafted:
+    """A scene on its sheet, as the options say, with or without pages of words; fails as `graphplan draw` does."""
     scene = on_sheet(with_rounds(scene, options), options)
-    return on_paper(scene, options, make_report(scene, options))
+    return on_paper(scene, options, make_report(scene, options), words=words)

@@ -162,13 +162,14 @@ def drawable(scene: Scene, options: Options) -> Report:
     """Report of the scene on its sheet, or of its regular part in this pose; its notes have the results that are not
     drawn, with the reason."""
     from graphplan.check.answerable import report_regular_part
-    from graphplan.check.json_results import reasons
-    from graphplan.phrases import said
 
     result = report_regular_part(on_sheet(with_rounds(scene, options), options),
                                  lambda scene: make_report(scene, options))
     left_out = dict[str, list[str]]()
     if result.given_scene is not result.scene:
+        from graphplan.check.json_results import reasons
+        from graphplan.phrases import said
+
         for named in reasons(result).values():
             for name, why in named.items():
                 left_out.setdefault(why, []).append(name)

@@ -260,9 +260,10 @@ def question(options: argparse.Namespace, scene: Scene) -> None:
         Messages(options.quiet).remark(f"{scene.name}: {fault}")
 
 
-def on_paper(options: argparse.Namespace, **keys: str) -> Drafted:
-    """The construction of the scene that is named on its sheet, with further keys of [sheet]."""
-    drafted = drafting.on_paper(with_sheet(load_scene(options), keys))
+def on_paper(options: argparse.Namespace, *, words: bool = True, **keys: str) -> Drafted:
+    """The construction of the scene that is named on its sheet, with further keys of [sheet], with or without pages of
+    words."""
+    drafted = drafting.on_paper(with_sheet(load_scene(options), keys), words=words)
     for line in drafted.drawing.missing:
         Messages(options.quiet).remark(f"{options.scene}: {line}")
     return drafted

@@ -14,7 +14,7 @@ from graphplan.errors import ConstructionError, Disagreement, Refused, SingularP
 from graphplan.mechanism.fields import suggestion
 from graphplan.mechanism.model import Presentation, Scene
 from graphplan.mechanism.pairs.pair import FRAME
-from graphplan.mechanism.sections import FRAMES
+from graphplan.mechanism.sections import BESIDE_PLANS, FRAMES, NO_WORDS
 from graphplan.mechanism.tasks import SheetTask
 from graphplan.mechanism.units import PAPERS
 from graphplan.methods.design import Design, merged_plans
@@ -127,12 +127,13 @@ def drawable(scene: Scene) -> Report:
     """Report of the scene on its sheet, or of its regular part in this pose; its notes have the results that are not
     drawn, with the reason."""
     from graphplan.check.answerable import report_regular_part
-    from graphplan.check.json_results import reasons
-    from graphplan.phrases import said
 
     result = report_regular_part(translate_title(scene), make_report)
     left_out = dict[str, list[str]]()
     if result.given_scene is not result.scene:
+        from graphplan.check.json_results import reasons
+        from graphplan.phrases import said
+
         for named in reasons(result).values():
             for name, why in named.items():
                 left_out.setdefault(why, []).append(name)
@@ -162,15 +163,17 @@ def wishes_of(scene: Scene) -> tuple[Design, tuple[str, ...]]:
     return replace(wishes, method=form.method), form.remarks
 
 
-def on_paper(scene: Scene, result: Report | None = None) -> Drafted:
-    """A construction on its sheet, drawn with its pencil and in its language."""
+def on_paper(scene: Scene, result: Report | None = None, *, words: bool = True) -> Drafted:
+    """A construction on its sheet, drawn with its pencil and in its language; without `words` it has no pages of
+    these."""
     from graphplan.accuracy.drafted import draft
     from graphplan.words.tongue import tongue
 
     result = result or drawable(scene)
     sheet = result.scene.sheet
+    protocol = sheet.protocol or AUTO
     return draft(result.drawing, pencil(scene), check=result.check, tongue=tongue(sheet.language),
-                 protocol=sheet.protocol or AUTO)
+                 protocol=protocol if words or protocol == BESIDE_PLANS else NO_WORDS)
 
 
 def pencil(source: Scene | SheetTask) -> Pencil:

@@ -62,7 +62,6 @@ def save_sheet(scene: Scene, path: str | None, excerpt: SheetExcerpt) -> tuple[S
 def sheet_files(scene: Scene, path: str | None, name: str, excerpt: SheetExcerpt) -> SheetFiles:
     """Return the files of the sheet of a scene in a format; without a path the first page alone."""
     from graphplan.sheet.layout.layout import pages, with_numbers
-    from graphplan.sheet.strip import by_stages, strip
 
     report = drafting.drawable(scene)
     drafted = drafting.on_paper(scene, report)
@@ -70,8 +69,12 @@ def sheet_files(scene: Scene, path: str | None, name: str, excerpt: SheetExcerpt
     names, text = files.page_names(path, 2), drafting.as_drawn(report.scene, drafted)
     more: list[Sheet] = []
     if excerpt.strip:
+        from graphplan.sheet.strip import strip
+
         sheets = strip(composition, cut=excerpt.strip)
     elif _wants_stages(excerpt, report.drawing.strict) and (name in WHOLE or len(names) > 1):
+        from graphplan.sheet.strip import by_stages
+
         sheets, more = by_stages(composition)
     else:
         sheets = [_requested_steps(sheet, report.drawing.drawn, excerpt) for sheet in pages(composition)]

@@ -20,9 +20,9 @@ import os
 from typing import TYPE_CHECKING, Unpack
 
 from graphplan.app import drafting, files
-from graphplan.app.choices import add_choices, add_sheet, count, drawing_options, load_scene
+from graphplan.app.choices import add_choices, add_sheet, count, load_scene
 from graphplan.app.cycle import add_span, span_of
-from graphplan.app.drafting import Keywords, Options
+from graphplan.app.drafting import Keywords, with_sheet
 from graphplan.errors import BrokenClaim, Refused
 from graphplan.mechanism.model import Scene
 from graphplan.output import back_end
@@ -45,7 +45,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    save_report(load_scene(options), options.output, drawing_options(options), options.positions, span_of(options))
+    save_report(load_scene(options), options.output, options.positions, span_of(options))
     return 0
 
 
@@ -57,33 +57,30 @@ def report(scene: Scene, path: str | os.PathLike[str], *, n: int = DEFAULT_POSIT
     Further keywords say how it is drawn and what the sheet looks like, as for `construct` and `drawing.save`. Fails as
     they do, and as `follow` does.
     """
-    save_report(scene, os.fspath(path), drafting.options_of(options), n, span)
+    save_report(with_sheet(scene, options), os.fspath(path), n, span)
 
 
-def save_report(scene: Scene, path: str, options: Options, positions: int,
-                span: tuple[float, float] | None = None) -> None:
-    """Write a report, with its options in one record."""
+def save_report(scene: Scene, path: str, positions: int, span: tuple[float, float] | None = None) -> None:
+    """Write a report, drawn as [sheet] has it."""
     from dataclasses import replace
 
     from graphplan.output.report import CycleReport
     from graphplan.sheet.layout.layout import pages
 
     files.kind(path, (".pdf",), "report")
-    whole = drafting.drawable(scene, options)
-    drafted = drafting.on_paper(scene, options, whole)
+    whole = drafting.drawable(scene)
+    drafted = drafting.on_paper(scene, whole)
     between = math.ceil(POSES / positions)
-    machine = drafting.on_sheet(drafting.with_rounds(scene, options), options)
-    cycle = followed_cycle(machine, options, positions, between, span)
+    cycle = followed_cycle(drafting.translate_title(scene), positions, between, span)
     composition = drafted.composition
     sheets = CycleReport(cycle, drafted.drawing, between).pages(
         lambda earlier, further: pages(replace(composition, earlier=earlier, further=further)),
         composition.page_count)
-    text = drafting.as_drawn(whole.scene, options, drafted)
+    text = drafting.as_drawn(whole.scene, drafted)
     files.write(back_end("pdf")([replace(sheet, scene=text) for sheet in sheets]), path)
 
 
-def followed_cycle(scene: Scene, options: Options, positions: int, between: int,
-                   span: tuple[float, float] | None) -> Cycle:
+def followed_cycle(scene: Scene, positions: int, between: int, span: tuple[float, float] | None) -> Cycle:
     """The cycle in so many positions with poses between: over a span, round a turn, or from limit to limit; both ends
     of what is no turn are positions.
 
@@ -98,7 +95,7 @@ def followed_cycle(scene: Scene, options: Options, positions: int, between: int,
         low, high = reachable_span(motion)
         span = float(low / unit), float(high / unit)
     poses = positions * between if span is None else (positions - 1) * between + 1
-    result = cycle(scene, poses, span, drafting.wishes_of(scene, options)[0])
+    result = cycle(scene, poses, span, drafting.wishes_of(scene)[0])
     for pose in result.wrong:
         raise BrokenClaim(scene.name, f"pose {pose}: the construction and the analytic solver disagree")
     if len(result.faults) == poses:

@@ -30,7 +30,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    on_sheet = on_paper(options)
+    on_sheet = on_paper(options, words=False)
     write(as_json(data(on_sheet)) if options.json else protocol(on_sheet, movements=options.movements))
     return 0
 

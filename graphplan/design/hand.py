@@ -287,7 +287,8 @@ def draw_with_slips(hand: Hand) -> tuple[Gradients, list[Any]]:
     def is_lost(step: Step, mark: Any) -> bool:
         """Whether a point's error is so much larger than its own slip that first order is meaningless for it."""
         slip = hand.slips[step.index][:1] if step.op.gives == POINT else ()
-        return any(slip) and bool((MAX_GROWTH * slip[0]) ** 2 < variances(domain, mark).sum() < math.inf)
+        off = (partials @ partials for partials in map(domain.partials, mark[:2]))
+        return any(slip) and (MAX_GROWTH * slip[0]) ** 2 < sum(off) < math.inf
 
     return domain, hand.draw(domain, errors, unsteady_mark, is_lost)
 

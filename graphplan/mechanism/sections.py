@@ -260,8 +260,8 @@ METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}
 METHOD_PAIRS = tuple(map(",".join, product(METHODS, repeat=2)))  # of velocities, of accelerations
 CRANK = "crank"  # the scale of velocities that are as long as the crank
 OF_PATHS = {"euler-savary": "Euler-Savary", "bobillier": "Bobillier", "hartmann": "Hartmann", "accelerations": ""}
-BESIDE_PLANS = "aside"
-PROTOCOLS = ("auto", BESIDE_PLANS, "pages", "none")  # where the words stand: beside the plans, or on pages of their own
+BESIDE_PLANS, NO_WORDS = "aside", "none"
+PROTOCOLS = ("auto", BESIDE_PLANS, "pages", NO_WORDS)  # where the words stand: beside plans, on pages, nowhere
 PLANS = ("N-plan", "velocity plan", "acceleration plan", "lever")  # and force plans, by their links
 INERTIA = ("couple", "shifted", "points", "percussion", "static")
 FORCE_ORDERS = ("polygons", "moments")  # what is drawn first of unknown forces

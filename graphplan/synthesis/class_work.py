@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 from graphplan.errors import GraphplanError
 from graphplan.kernel.drawn import crossing
@@ -69,11 +70,11 @@ class TaskDesign(SeriesDesign):
     def own_quality(self) -> Quality:
         return quality_of_handout(self.handout)
 
-    def common_wording(self, pilots: Sequence[Values]) -> Wording:
+    def common_wording(self, pilots: Sequence[Values], number: int) -> tuple[Wording, Sequence[Any]]:
         """All are on the task's own paper."""
         task, keys = self.source, {"paper": self.handout.on_paper.paper, "language": self.source.sheet.language}
-        say = tongue(task.sheet.language)
-        return Wording(task.text, say.title(task.title), {key: json.dumps(value) for key, value in keys.items()}, say)
+        say, keys = tongue(task.sheet.language), {key: json.dumps(value) for key, value in keys.items()}
+        return Wording(task.text, say.title(task.title), keys, say), ()
 
 
 # ---- what is printed ------------------------------------------------------------------------------------------------

@@ -50,11 +50,13 @@ def _class_of_scene(scene: Scene, keys: Mapping[str, Any]) -> ClassWork:
 
     draw = partial(draft_scene, keys)
     drafted = draw(scene)
-    return ClassWork(partial(SceneDesign, drafted, draw), partial(print_exercise, draw=draw, further=key_rows),
+    return ClassWork(partial(SceneDesign, drafted, partial(draw, words=False)),
+                     partial(print_exercise, draw=draw, further=key_rows),
                      lambda lines: [*overview(drafted.composition, lines)], drafted.drawing.scene.title)
 
 
-def draft_scene(keys: Mapping[str, Any], scene: Scene) -> Drafted:
-    """A scene on its sheet, with these keys of [sheet]; fails as `graphplan draw` does."""
+def draft_scene(keys: Mapping[str, Any], scene: Scene, *, words: bool = True) -> Drafted:
+    """A scene on its sheet, with these keys of [sheet], with or without pages of words; fails as `graphplan draw` does.
+    """
     scene = translate_title(with_sheet(scene, keys))
-    return on_paper(scene, make_report(scene))
+    return on_paper(scene, make_report(scene), words=words)

@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from itertools import islice
+from itertools import chain, islice
 from random import Random
 from typing import Any, ClassVar, NamedTuple
 
@@ -46,7 +46,7 @@ from graphplan.sheet.layout.paper import unit_lengths
 from graphplan.sheet.layout.scales import Scales, round_up
 from graphplan.words.tongue import Tongue
 
-Draw = Callable[[Scene], Drafted]  # a scene on its sheet, as the options say
+Draw = Callable[[Scene], Drafted]  # a scene on its sheet without pages of words, as the options say
 
 
 class Flaw(NamedTuple):
@@ -292,22 +292,23 @@ class SeriesDesign(ABC):
         """The quality of its own sheet."""
 
     @abstractmethod
-    def common_wording(self, pilots: Sequence[Values]) -> Wording:
-        """Wording of all, so that enough of the first ones may be good."""
+    def common_wording(self, pilots: Sequence[Values], number: int) -> tuple[Wording, Sequence[Any]]:
+        """Wording of all, so that enough of the first ones may be good, and what was found for these as variants of
+        that number, if anything."""
 
-    def assess(self, texts: Iterable[str]) -> Iterable[Any]:
-        """The flaw of each text of a variant, or whatever is no flaw."""
+    def assess(self, wording: Wording, number: int, variants: Iterable[Values]) -> Iterable[Any]:
+        """The flaw of each variant, which has this number in its title, or whatever is no flaw."""
         return self.shared_out(partial(self.find_flaw, name=self.source.name, draw=self.draw, own=self.own_quality),
-                               texts)
+                               (wording.variant(number, values).text for values in variants))
 
     def series(self, count: int, seed: int, progress: Progress) -> VariantSeries:
         """So many variants, no two alike before all good ones of the grid are given out; fails with `Refused` where
         hardly any that is drawn is without a flaw."""
         choices = self.source.vary
-        wording = self.common_wording([*islice(draw_values(choices, seed), min(measures.PILOT_VARIANTS, count + 2))])
         tried = [*islice(draw_values(choices, seed), measures.DRAWS_PER_VARIANT * count + measures.MIN_DRAWS)]
+        wording, known = self.common_wording(tried[:min(measures.PILOT_VARIANTS, count + 2)], count)
         good_values, drawn_anew = list[Values](), list[tuple[int, Values, Flaw]]()
-        flaws = self.assess(wording.variant(count, values).text for values in tried)
+        flaws = chain(known, self.assess(wording, count, tried[len(known):]))
         for values, wrong in zip(tried, flaws, strict=False):
             if isinstance(wrong, Flaw):
                 drawn_anew.append((len(good_values) + 1, values, wrong))
@@ -330,8 +331,7 @@ class SeriesDesign(ABC):
         """
         few = f"of {len(good_values) + len(drawn_anew)} variants drawn {len(good_values)} are good, {count} are wanted"
         ends = [{path: values[end]} for path, values in self.source.vary.items() for end in (0, -1)]
-        texts = [wording.variant(count, values).text for values in ends]
-        for values, wrong in zip(ends, self.assess(texts), strict=True):
+        for values, wrong in zip(ends, self.assess(wording, count, ends), strict=True):
             if isinstance(wrong, Flaw):
                 (path, value), = values.items()
                 return Refused(f'{self.source.name}: vary."{path}"',
@@ -357,8 +357,24 @@ class SceneDesign(SeriesDesign):
 
     source = scene
 
-    def common_wording(self, pilots: Sequence[Values]) -> Wording:
-        return self.wording(self.scales(pilots))
+    def common_wording(self, pilots: Sequence[Values], number: int) -> tuple[Wording, Sequence[Any]]:
+        """Wording with the scales of the class: the first of some that enough of the first variants fit, else what most
+        fit."""
+        best: tuple[int, Wording, Sequence[Any]] | None = None
+        tried: list[Keys] = []
+        for keys in self._proposals(pilots, number):
+            if keys in tried:
+                continue
+            tried.append(keys)
+            wording = self.wording(keys)
+            found = [*self.assess(wording, number, pilots)]
+            fitting = sum(not isinstance(flaw, Flaw) for flaw in found)
+            if best is None or fitting > best[0]:
+                best = fitting, wording, found
+            if fitting >= measures.MIN_FITTING_SHARE * len(pilots):
+                break
+        assert best is not None
+        return best[1:]
 
     @property
     def own_quality(self) -> Quality:
@@ -374,24 +390,7 @@ class SceneDesign(SeriesDesign):
         """The scene's words with these keys in [sheet]."""
         return Wording(self.scene.text, self.scene.title, keys, self.tongue)
 
-    def scales(self, pilots: Sequence[Values]) -> Keys:
-        """The scales of the class: the first of some that enough of the first variants fit, else what most fit."""
-        most: tuple[int, Keys] | None = None
-        tried: list[Keys] = []
-        for keys in self._proposals(pilots):
-            if keys in tried:
-                continue
-            tried.append(keys)
-            texts = [self.wording(keys).variant(number, values).text for number, values in enumerate(pilots, 1)]
-            fitting = sum(not isinstance(flaw, Flaw) for flaw in self.assess(texts))
-            if most is None or fitting > most[0]:
-                most = fitting, keys
-            if fitting >= measures.MIN_FITTING_SHARE * len(pilots):
-                break
-        assert most is not None
-        return most[1]
-
-    def _proposals(self, pilots: Sequence[Values]) -> Iterator[Keys]:
+    def _proposals(self, pilots: Sequence[Values], number: int) -> Iterator[Keys]:
         """The scales of the scene's own sheet; then by how large the other plans of most good variants are drawn at its
         scale of lengths, and at the next coarser one."""
         composition, sheet = self.drafted.composition, self.scene.sheet
@@ -403,8 +402,8 @@ class SceneDesign(SeriesDesign):
                                   scales_of_scene.k_s if sheet.k_s or sheet.k_v or sheet.k_F else float(coarser))):
             scales = replace(scales_of_scene, k_s=k_s)
             free = self.wording(sheet_keys(self.scene, scales, paper, multiples=False))
-            texts = [free.variant(number, values).text for number, values in enumerate(pilots, 1)]
-            variant_multiples = [multiples for multiples in self.assess(texts) if not isinstance(multiples, Flaw)]
+            variant_multiples = [multiples for multiples in self.assess(free, number, pilots)
+                                 if not isinstance(multiples, Flaw)]
             plans = [plan
                      for plan in scales_of_scene.multiples if all(plan in multiples for multiples in variant_multiples)]
             ordered = {plan: sorted(multiples[plan] for multiples in variant_multiples)

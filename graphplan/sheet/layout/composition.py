@@ -18,7 +18,7 @@ from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
-from graphplan.mechanism.sections import BESIDE_PLANS, PROTOCOLS
+from graphplan.mechanism.sections import BESIDE_PLANS, NO_WORDS, PROTOCOLS
 from graphplan.mechanism.units import iso_size
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
@@ -286,7 +286,7 @@ class Composer:
         if fact_items is None:  # a remark on the pose is longer than at usual scales: the words have it
             fact_items = arrangement.set_facts(self._facts(replace(pencil, remark=None)))
         arrangement = replace(arrangement, fact_items=fact_items or ())
-        words = rows if self.protocol != "none" else None
+        words = rows if self.protocol != NO_WORDS else None
         if facts and not arrangement.facts:  # no room for them on the first page
             words = facts if words is None else lambda wide: [*facts(wide), *rows(wide)]
         if words and arrangement.columns:

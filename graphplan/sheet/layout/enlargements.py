@@ -245,6 +245,12 @@ class EnlargedPlan:
         return marks[outside], weights[outside]
 
     @property
+    def is_crowded(self) -> bool:
+        """Whether so much is illegible that a further detail may help."""
+        return bool(self.crowd[1].sum() >= MIN_GAIN and len(self.details) < MAX_DETAILS
+                    and len(self.plain.letters.wishes) <= MAX_LETTERS)
+
+    @property
     def illegible(self) -> float:
         """Illegible weight on the plan and in its details."""
         return float(self.crowd[1].sum() + sum(illegible(detail.picture)[1].sum() for detail in self.details))
@@ -287,8 +293,11 @@ def enlarge_crowds(composition: Composition, others: Sequence[Item]) -> tuple[li
     details, waiting = list[Item](), [*plans]
     while waiting and (letter := next(letters, "")):
         panel = max(waiting, key=lambda panel: plans[panel].crowd[1].sum())
-        drawn = [*others, *details, *(item for plan in plans.values() for item in plan.draft.items)]
-        if plan := _enlarge(composition, plans[panel], letter, drawn):
+        plan = None
+        if plans[panel].is_crowded:
+            drawn = [*others, *details, *(item for plan in plans.values() for item in plan.draft.items)]
+            plan = _enlarge(composition, plans[panel], letter, drawn)
+        if plan:
             plans[panel], ring = plan, plan.details[-1].ring
             caption = tongue(said("Detail {0}, {1} : 1", letter, ring.factor))
             details += plan.details[-1].items(size, sentence_runs(caption, (letter,)))
@@ -302,10 +311,7 @@ def enlarge_crowds(composition: Composition, others: Sequence[Item]) -> tuple[li
 def _enlarge(composition: Composition, plan: EnlargedPlan, letter: str, drawn: Sequence[Item]) -> EnlargedPlan | None:
     """The plan with a detail of its worst crowd; None if no detail makes enough of it legible, or the page has no
     room."""
-    marks, weights = plan.crowd
-    if weights.sum() < MIN_GAIN or len(plan.details) == MAX_DETAILS or len(plan.plain.letters.wishes) > MAX_LETTERS:
-        return None
-    times = composition.arrangement.letters.times
+    (marks, weights), times = plan.crowd, composition.arrangement.letters.times
     middle, tried = tuple(np.average(marks, axis=0, weights=weights)), set[DetailRing]()
     for space in (composition.arrangement.panels[plan.plain.plate.panel], composition.arrangement.frame):
         room = room_on_page(composition, space, drawn)

@@ -103,7 +103,7 @@ class FactRows:
         if self._paragraphs:
             yield self._heading(said("Given"), GIVEN)
         for runs in self._paragraphs:
-            yield from (replace(row, layer=GIVEN) for row in paragraph_rows(runs, wide, 0.0))
+            yield from paragraph_rows(runs, wide, 0.0, layer=GIVEN)
 
     def _found_rows(self, wide: float) -> Iterator[TextRow]:
         """The results in as many columns as there is room for, down the columns."""

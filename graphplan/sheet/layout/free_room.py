@@ -120,7 +120,7 @@ class FreeRoom:
         self.taken = taken
         self.sums = np.zeros((self.shape[0] + 1, self.shape[1] + 1), dtype=int)
         taken.cumsum(0).cumsum(1, out=self.sums[1:, 1:])
-        self._free: dict[tuple[int, int], NDArray[np.int_]] = {}  # by the size of the rectangle
+        self._free: dict[tuple[int, int], Cells] = {}  # by the size of the rectangle
 
     def _cells(self, boxes: NDArray[np.float64], clearance: float) -> NDArray[np.int_]:
         """Of boxes, with so much air about them, the first columns and rows of cells, and those after the last ones."""
@@ -132,32 +132,33 @@ class FreeRoom:
     def window(self, wide: float, high: float, is_first: bool, sideways: bool = False) -> Rect | None:
         """A free rectangle of a size, the first from above and then from the left or, `sideways`, the other way round;
         without `is_first` the last. None if there is no room."""
-        free = self._free_cells(wide, high)
-        if not len(free):
+        free = self._free_cells(wide, high)[::-1]
+        cells = (free.T if sideways else free).ravel()
+        if not cells.any():
             return None
-        down, across = -free[:, 0], free[:, 1]
-        order = np.lexsort((down, across) if sideways else (across, down))
-        return self._rect(free[order[0 if is_first else -1]].tolist(), wide, high)
+        place = int(cells.argmax() if is_first else len(cells) - 1 - cells[::-1].argmax())
+        down, across = divmod(place, len(free))[::-1] if sideways else divmod(place, free.shape[1])
+        return self._rect((len(free) - 1 - down, across), wide, high)
 
     def nearest(self, wide: float, high: float, spot: Spot) -> Rect | None:
         """The free rectangle of a size of which the middle is nearest to a spot; None if there is no room."""
-        free = self._free_cells(wide, high)
+        free = np.argwhere(self._free_cells(wide, high))
         if not len(free):
             return None
         lower = (spot[1] - high / 2 - self.space.bottom) / CELL_MM, (spot[0] - wide / 2 - self.space.left) / CELL_MM
         return self._rect(free[((free - lower) ** 2).sum(axis=1).argmin()].tolist(), wide, high)
 
-    def _free_cells(self, wide: float, high: float) -> NDArray[np.int_]:
-        """The cells, by row and column, that are the lower left ones of free rectangles of a size."""
+    def _free_cells(self, wide: float, high: float) -> Cells:
+        """Whether each cell is the lower left one of a free rectangle of a size."""
         rows, columns = size = math.ceil(high / CELL_MM), math.ceil(wide / CELL_MM)
         if rows > self.shape[0] or columns > self.shape[1]:
-            return np.empty((0, 2), dtype=int)
+            return np.empty((0, 0), dtype=bool)
         if size not in self._free:
             sums = self.sums
             covered = sums[rows:, columns:] - sums[:-rows, columns:]
             covered -= sums[rows:, :-columns]
             covered += sums[:-rows, :-columns]
-            self._free[size] = np.argwhere(covered == 0)
+            self._free[size] = covered == 0
         return self._free[size]
 
     def _rect(self, cell: Sequence[int], wide: float, high: float) -> Rect:
@@ -169,7 +170,7 @@ class FreeRoom:
 def _boxes(items: Iterable[Item]) -> NDArray[np.float64]:
     """The left, lower, right and upper sides of small boxes that hold items together: those of letters, of figures, of
     the pieces of lines."""
-    whole, lines = list[Rect](), list[Sequence[Spot]]()
+    whole, lines, circles = list[Rect](), list[Sequence[Spot]](), dict[int, list[tuple[float, float, float]]]()
     for item in items:
         match item:
             case Text():
@@ -183,9 +184,11 @@ def _boxes(items: Iterable[Item]) -> NDArray[np.float64]:
             case Arrow():
                 lines.append((item.start, item.end))
             case Circle():
-                (x, y), r = item.centre, item.radius
-                angles = np.linspace(0.0, 2 * math.pi, max(8, int(r)))
-                lines.append([*zip((x + r * np.cos(angles)).tolist(), (y + r * np.sin(angles)).tolist(), strict=True)])
+                circles.setdefault(max(8, int(item.radius)), []).append((*item.centre, item.radius))
+    for count, some in circles.items():
+        x, y, r = np.array(some).T[..., None]
+        angles = np.linspace(0.0, 2 * math.pi, count)
+        lines += np.stack((x + r * np.cos(angles), y + r * np.sin(angles)), axis=2).tolist()
     return np.vstack((np.reshape([(box.left, box.bottom, box.right, box.top) for box in whole], (-1, 4)),
                       _pieces(lines)))
 

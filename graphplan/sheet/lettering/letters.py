@@ -82,8 +82,8 @@ class PlacedLetters:
         """The last place of each letter; where it is nearer to another mark a leader tells whose it is."""
         if not self.wishes:
             return []
-        prices, choice = self._final_choice
-        places = prices.found[choice]
+        prices = self._settled.prices
+        places = prices.found[self._settled.choice]
         ink = places.boxes - OUTWARDS * [wish.slack for wish in self.wishes]
         places = replace(places, led=places.led | prices.marks.mistaken(replace(places, boxes=ink)))
         return [(wish, places[letter]) for letter, wish in enumerate(self.wishes)]
@@ -96,7 +96,7 @@ class PlacedLetters:
     @cached_property
     def _hidden(self) -> list[int]:
         """Indices of the letters that are hardly legible in their final places."""
-        return Relabelling(*self._final_choice).faulty if self.wishes else []
+        return self._settled.faulty if self.wishes else []
 
     @property
     def hidden_items(self) -> list[Item]:
@@ -108,7 +108,7 @@ class PlacedLetters:
         `hidden`; lines that are not `fixed` break off at letters."""
         if not self.wishes:
             return
-        prices, choice = self._final_choice
+        prices, choice = self._settled.prices, self._settled.choice
         hidden, led = self._hidden, prices.found.led[choice]
         faults = np.zeros(len(hidden))
         for part in (Lines(fixed), prices.marks, prices.surfaces) if hidden else ():
@@ -120,15 +120,16 @@ class PlacedLetters:
                 yield (x, y), kind
 
     @cached_property
-    def _final_choice(self) -> tuple[Prices, Array]:
-        """Prices of the places and the chosen ones, after illegible letters were placed again."""
-        prices, choice = self.prices.away_from(self.taken), self.choice
-        if self.rect and (faulty := sorted(Relabelling(prices, choice).faulty)):
+    def _settled(self) -> Relabelling:
+        """The letters in their last places, after illegible ones were placed again."""
+        settled = Relabelling(self.prices.away_from(self.taken), self.choice)
+        if self.rect and (faulty := sorted(settled.faulty)):
             more = candidates([self.wishes[letter] for letter in faulty], self.rect, FINE_RINGS,
                               FINE_DIRECTIONS).for_letters(faulty)
-            prices, new_index = prices.with_more_places(more[~more.meeting(self.taken)])
-            choice = Relabelling(prices, new_index[choice]).relabel(makes_room=not self.in_haste)
-        return prices, choice
+            prices, new_index = settled.prices.with_more_places(more[~more.meeting(self.taken)])
+            settled = Relabelling(prices, new_index[self.choice])
+            settled.relabel(makes_room=not self.in_haste)
+        return settled
 
 
 def lettering(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot], rect: Rect,
@@ -199,8 +200,8 @@ class LetteredPlate:
     @cached_property
     def items(self) -> list[Item]:
         """Everything that is drawn, in no order."""
-        return [*self.strokes, *self.letters.items, *self.plate.positions(self.letters.items),
-                *self.plate.machine(self.letters.items)]
+        letters = self.letters.items
+        return [*self.strokes, *letters, *self.plate.positions(letters), *self.plate.machine(letters)]
 
     @property
     def items_off_letters(self) -> list[Item]:

@@ -61,14 +61,12 @@ class Relabelling:
         worst = np.argsort(-fault, kind="stable")
         return [int(letter) for letter in worst if fault[letter] >= FAULT]
 
-    def relabel(self, makes_room: bool = True) -> Array:
-        """Move letters with faults, with or without others making room, until no letter finds a better place; return
-        the places."""
+    def relabel(self, makes_room: bool = True) -> None:
+        """Move letters with faults, with or without others making room, until no letter finds a better place."""
         self.left *= makes_room
         for _ in range(MAX_RELABELLINGS if len(self.prices.found.boxes) < MAX_PLACES else 0):
             if not sum([self._try(letter) for letter in self.faulty]):
-                break
-        return self.choice
+                return
 
     def _try(self, letter: int) -> bool:
         """Move a letter to a better place, unless all stand as when it last found no better one; return whether it

@@ -85,14 +85,14 @@ class TextRow:
         return max((*ends, *(box.right for box in self.boxes), self.tall if self.figure else 0.0), default=0.0)
 
 
-def paragraph_rows(runs: Runs, wide: float, indent: float, number: str = "",
-                   step: int | None = None) -> Iterator[TextRow]:
+def paragraph_rows(runs: Runs, wide: float, indent: float, number: str = "", step: int | None = None,
+                   layer: str = "text") -> Iterator[TextRow]:
     """A paragraph in a column of a width: as it is, or with a number from which its lines hang, so far indented."""
     hangs = indent if number else 0.0
     lines = wrap(runs, SIZE, wide - hangs)
     for i, line in enumerate(lines):
         label = (Cell(hangs - 1.6, sentence_runs(number), "end"),) if number and i == 0 else ()
-        yield TextRow((*label, Cell(hangs, line)), step=step, keep=min(3, len(lines) - 1 - i))
+        yield TextRow((*label, Cell(hangs, line)), step=step, keep=min(3, len(lines) - 1 - i), layer=layer)
 
 
 Placed = tuple[TextRow, float, float]

@@ -87,7 +87,7 @@ class Judge:
         points = (place for place, trace in enumerate(traces) if trace.label in self.drawing.scene.points)
         taken = {*self.orphaned_marks, *certain, *points}
         self.unlabelled = [place for place, trace in enumerate(traces) if place not in taken and not (
-            self.submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < measures.MIN_PICTURE_LINE_MM)]
+            self.submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < measures.LONE_LINE_MM)]
 
     @property
     def has_nameless_marks(self) -> bool:
@@ -197,7 +197,7 @@ class Judge:
         numbers = sum(measures.NUMBER_ODDS if number.state != WRONG else -measures.NUMBER_ODDS
                       for number in judgement.numbers)
         return (self._prior + likelihood(self.likeliest) + numbers
-                + measures.STRANGE_LETTER_ODDS * judgement.fault_count.strange_letters
+                + measures.DEPARTURE_ODDS * judgement.fault_count.strange_letters
                 + sum(measures.KNOWN_MISTAKE_ODDS if kind else measures.UNNAMED_MISTAKE_ODDS for kind in wrong))
 
     @property
@@ -206,9 +206,9 @@ class Judge:
         frame = self.fits[MECHANISM].frame
         free = [fit for panel, fit in self.fits.items()
                 if panel != MECHANISM and not fit.tied and panel not in self.submission.frames]
-        turned = sum(abs(cmath.phase(fit.frame.unit / frame.unit)) > measures.SAME_DIRECTION_SINE + 3 * fit.turn
+        turned = sum(abs(cmath.phase(fit.frame.unit / frame.unit)) > measures.SAME_FRAME_SHARE + 3 * fit.turn
                      for fit in free)
-        return measures.OWN_FRAME_ODDS * (len(self.reading.remarks) + len(free) + turned)
+        return measures.DEPARTURE_ODDS * (len(self.reading.remarks) + len(free) + turned)
 
     @property
     def hidden_steps(self) -> set[int]:
@@ -425,7 +425,7 @@ def seen_pencil(matching: Matching, now: SeenPencil, submission: Submission) -> 
     """The pencil that a drawing shows, from a way through it that was judged by another; None where too few marks tell
     it."""
     samples = list(_pencil_samples(matching))
-    if len(samples) < measures.MIN_SAMPLES:
+    if len(samples) < measures.MIN_WITNESSES:
         return None
     rounding = max(0.0, min((trace.blur**2 for trace in submission.traces), default=0.0))
     read, stated_shares, reading_ratios = np.zeros(1), np.ones(1), np.ones(1)

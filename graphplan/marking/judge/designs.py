@@ -63,7 +63,7 @@ def unmirror(drawing: Construction, composition: Composition, submission: Submis
 def _marks_in_frame(pairs: Sequence[Pair], fit: Fit | None, pencil: Pencil) -> list[Pair]:
     """The marks that a frame holds."""
     return [(plan, sheet) for plan, sheet in pairs
-            if fit and abs(fit.frame.to_sheet(plan) - sheet) < 2 * measures.FRAME_SIGMAS * pencil.point]
+            if fit and abs(fit.frame.to_sheet(plan) - sheet) < 2 * measures.SURE_SIGMAS * pencil.point]
 
 
 @dataclass(frozen=True)
@@ -122,8 +122,8 @@ class OtherDesigns:
         for count, ratio, sigma in agreed_units(votes):
             quarters = round(cmath.phase(ratio) / (math.pi / 2)) % 4
             off = abs(cmath.phase(ratio * (-1j) ** quarters))
-            same = abs(1 / abs(ratio) - 1) < measures.FRAME_SIGMAS * sigma
-            if (count > 1 or off < measures.FRAME_SIGMAS * sigma) and off < measures.MAX_TURN_ERROR_RAD and (
+            same = abs(1 / abs(ratio) - 1) < measures.SURE_SIGMAS * sigma
+            if (count > 1 or off < measures.SURE_SIGMAS * sigma) and off < measures.MAX_TURN_ERROR_RAD and (
                     quarters in SENSES and not (same and quarters == 0)):  # a quarter on, true ones would be reversed
                 yield from self._turned_readings(quarters, Fraction(1) if same else Fraction(abs(ratio)))
 
@@ -295,7 +295,7 @@ def gather_velocities(drawing: Construction, submission: Submission, frame: Plan
         traces += [replace(stroke, panel=VELOCITY_PLAN, spots=tuple(
             as_spot(new + (complex(*spot) - old) / 1j**turn) for spot in stroke.spots))
             for stroke in submission.traces if stroke.kind == LINE and stroke.figure.distance(Point(old.real, old.imag))
-            < measures.LINE_END_MM]
+            < measures.DRIFT_MM]
     return replace(submission, traces=tuple(traces)), FROM_POINTS[turn]
 
 

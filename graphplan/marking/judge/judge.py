@@ -27,7 +27,7 @@ from graphplan.marking.judge.matching import Matching, count_wrong, matches_on
 from graphplan.marking.judge.numbers import judge_numbers, results_drawn_right, true_results
 from graphplan.marking.judge.search import Search, likelihood, wrong_arrow
 from graphplan.marking.judge.student_sheet import Fit, SharedMarks, StudentSheet
-from graphplan.marking.judge.verdict import WRONG, FaultCount, Judgement
+from graphplan.marking.judge.verdict import WRONG, Judgement
 from graphplan.marking.judge.verdicts import verdicts
 from graphplan.marking.judge.whole_plans import (
     WholePlan,
@@ -87,7 +87,7 @@ class Judge:
         points = (place for place, trace in enumerate(traces) if trace.label in self.drawing.scene.points)
         taken = {*self.orphaned_marks, *certain, *points}
         self.unlabelled = [place for place, trace in enumerate(traces) if place not in taken and not (
-            self.submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < measures.MIN_PICTURE_LINE_MM)]
+            self.submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < measures.LONE_LINE_MM)]
 
     @property
     def has_nameless_marks(self) -> bool:
@@ -162,40 +162,32 @@ class Judge:
         return list(deviating_plans(self.reading, panels, self.fits))
 
     @property
-    def unused_numbers(self) -> int:
-        """Number of points whose numbers the reading leaves out and that are no marks of the construction."""
+    def _has_unused_numbers(self) -> bool:
+        """Whether points whose numbers the reading leaves out are no marks of the construction."""
         traces = self.likeliest.traces
         needed = {traces[place].spots for place in self.likeliest.used | self.likeliest.over}
-        return sum(traces[place].kind == POINT and traces[place].spots not in needed
+        return any(traces[place].kind == POINT and traces[place].spots not in needed
                    for place in self.reading.numbered)
 
     @property
-    def acquits(self) -> bool:
-        """Whether points whose numbers the reading leaves out are no marks, and it calls nothing wrong."""
-        return bool(self.unused_numbers and not self.judgement.fault_count.wrong)
-
-    @property
-    def fault_count(self) -> FaultCount:
-        """The number of faults of the reading, that it departs from the printed scales among them."""
+    def unexplained(self) -> float:
+        """The number of marks that are wrong, or have letters without a use, and of departures from printed scales."""
         fits = [fit for panel, fit in self.fits.items()
                 if panel != MECHANISM and not fit.tied and panel in self.printed_panels]
         departs = self.reading.departs if MECHANISM in self.printed_panels else 0
         faults = self.judgement.fault_count
-        return faults._replace(wrong=faults.wrong + departures(fits, True, departs) + self.unused_numbers)
+        return faults.wrong + faults.strange_letters + departures(fits, True, departs)
 
     @property
     def has_faults(self) -> bool:
         """Whether something is wrong or missing, or cannot be judged."""
-        return bool(self.orphaned_marks or self.fault_count.wrong or self.fault_count.missing)
+        return bool(self.orphaned_marks or self.unexplained or self.judgement.fault_count.missing)
 
     def explains_more(self, rival: Judge) -> bool:
-        """Whether its faults speak for it, or else whether all that it explains does."""
-        if self.acquits:
+        """Whether it leaves fewer marks unexplained than a rival, or of equally many is likelier."""
+        if self._has_unused_numbers:
             return False
-        mine, its = self.fault_count, rival.fault_count
-        if mine.leaves_less_over(its) or its.leaves_less_over(mine):
-            return mine.leaves_less_over(its)
-        return mine.is_less_wrong(its) or self.weight > rival.weight
+        return (self.unexplained, -self.weight) < (rival.unexplained, -rival.weight)
 
     @property
     def weight(self) -> float:
@@ -205,8 +197,7 @@ class Judge:
         numbers = sum(measures.NUMBER_ODDS if number.state != WRONG else -measures.NUMBER_ODDS
                       for number in judgement.numbers)
         return (self._prior + likelihood(self.likeliest) + numbers
-                + measures.STRANGE_LETTER_ODDS * judgement.fault_count.strange_letters
-                + measures.UNNAMED_MISTAKE_ODDS * self.unused_numbers
+                + measures.DEPARTURE_ODDS * judgement.fault_count.strange_letters
                 + sum(measures.KNOWN_MISTAKE_ODDS if kind else measures.UNNAMED_MISTAKE_ODDS for kind in wrong))
 
     @property
@@ -215,9 +206,9 @@ class Judge:
         frame = self.fits[MECHANISM].frame
         free = [fit for panel, fit in self.fits.items()
                 if panel != MECHANISM and not fit.tied and panel not in self.submission.frames]
-        turned = sum(abs(cmath.phase(fit.frame.unit / frame.unit)) > measures.SAME_DIRECTION_SINE + 3 * fit.turn
+        turned = sum(abs(cmath.phase(fit.frame.unit / frame.unit)) > measures.SAME_FRAME_SHARE + 3 * fit.turn
                      for fit in free)
-        return measures.OWN_FRAME_ODDS * (len(self.reading.remarks) + len(free) + turned)
+        return measures.DEPARTURE_ODDS * (len(self.reading.remarks) + len(free) + turned)
 
     @property
     def hidden_steps(self) -> set[int]:
@@ -434,7 +425,7 @@ def seen_pencil(matching: Matching, now: SeenPencil, submission: Submission) -> 
     """The pencil that a drawing shows, from a way through it that was judged by another; None where too few marks tell
     it."""
     samples = list(_pencil_samples(matching))
-    if len(samples) < measures.MIN_SAMPLES:
+    if len(samples) < measures.MIN_WITNESSES:
         return None
     rounding = max(0.0, min((trace.blur**2 for trace in submission.traces), default=0.0))
     read, stated_shares, reading_ratios = np.zeros(1), np.ones(1), np.ones(1)

@@ -152,9 +152,9 @@ def add_paper(command: argparse.ArgumentParser, text: str) -> None:
     command.add_argument("--paper", choices=tuple(SIZES), help=text)
 
 
-def add_sheet(command: argparse.ArgumentParser, source: str = "scene") -> None:
-    """The options that say what the sheet looks like; without them the scene, or the task, has a say in it."""
-    add_paper(command, f"the sheet (the {source}'s, or the smallest that will do)")
+def add_sheet(command: argparse.ArgumentParser) -> None:
+    """The options that say what the sheet looks like; without them the scene has a say in it."""
+    add_paper(command, "the sheet (the scene's, or the smallest that will do)")
     add_language(command)
 
 
@@ -180,10 +180,9 @@ def _pencil(text: str) -> Pencil:
 
 
 def add_preference(command: argparse.ArgumentParser) -> None:
-    """The options by which a form is preferred."""
+    """The option by which a form is preferred."""
     command.add_argument("--prefer", default="", choices=PREFERENCES,
                          help="weigh all forms: the fewest operations, the smallest pencil error, or both")
-    add_pencil(command)
 
 
 # --- asked for -----------------------------------------------------------------------------------------------------
@@ -305,9 +304,9 @@ def read_task(options: argparse.Namespace, load: Callable[[str], Task], parse: C
 SCENE, JSON = (".toml",), (".json",)  # endings of what alone an option applies to
 
 
-def add_subject(command: argparse.ArgumentParser, source: str = "scene") -> None:
-    """The options of all subjects: their sheet, other values of the scene or task, and the steps in JSON."""
-    add_sheet(command, source)
+def add_subject(command: argparse.ArgumentParser) -> None:
+    """The options of all subjects: language, other values of the scene or task, and the steps in JSON."""
+    add_language(command)
     add_settings(command)
     command.add_argument("--steps", action="store_true", help="in JSON the steps of the drawing too, to be executed on "
                          "paper as those of `graphplan steps --json`")

@@ -37,18 +37,18 @@ class WorkingDrawing(Construction):
     given_scene: Scene | None = None
     options: Options = field(default_factory=Options)
 
-    def save(self, path: str | os.PathLike[str], *, until: str = "", steps: str = "", strip: str = "", by: str = "",
+    def save(self, path: str | os.PathLike[str], *, steps: str = "", strip: str = "", by: str = "",
              numbers: bool = False, dpi: int | None = None, **options: Unpack[Keywords]) -> None:
         """Write the sheet by the ending of its path (.svg, .pdf, .png, .dxf), byte for byte as `graphplan draw` does.
 
-        `until` a step, `steps` such as "6-12", a `strip` by "mark" or "step", `by` "stages", `numbers` and `dpi` are
-        the options of `draw`; further keywords say how it is drawn (plan="polar") and what the sheet looks like
+        `steps` such as "6-12", a `strip` by "mark" or "step", `by` "stages", `numbers` and `dpi` are the options of
+        `draw`; further keywords say how it is drawn (plan="polar") and what the sheet looks like
         (paper="A3", language="de"). Fails with `Refused` where it cannot be drawn or written so.
         """
         from graphplan.app.pages import SheetExcerpt, save_sheet
 
         chosen = options_of({**{name: value for name, value in vars(self.options).items() if value}, **options})
-        excerpt = SheetExcerpt(str(until), steps, strip, by, numbers, dpi)
+        excerpt = SheetExcerpt(steps, strip, by, numbers, dpi)
         save_sheet(self.given_scene or self.scene, os.fspath(path), chosen, excerpt)
 
     def evaluate(self, poses: PoseSeries | Mapping[str, Any] | None = None,  # type: ignore[override]

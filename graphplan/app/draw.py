@@ -21,6 +21,7 @@ import argparse
 from graphplan.app.choices import (
     Messages,
     add_choices,
+    add_pencil,
     add_preference,
     add_sheet,
     add_travel,
@@ -33,14 +34,13 @@ from graphplan.app.pages import STAGED, SheetExcerpt, save_sheet, sheet_format
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("-o", "--output", metavar="SHEET.svg",
+    command.add_argument("-o", "--output", metavar="FILE",
                          help="the file to write: .svg, .pdf, .png or .dxf; without it SVG on standard output")
     command.add_argument("--dpi", type=count("--dpi", 20, 600), metavar="N",
                          help=f"dots per inch of a .png ({DEFAULT_DPI})")
     add_sheet(command)
     group = command.add_mutually_exclusive_group()
-    group.add_argument("--until", metavar="N", help="the sheet as it stands after step N")
-    group.add_argument("--steps", metavar="A-B", help="steps A to B in ink over what was drawn before them, in grey")
+    group.add_argument("--steps", metavar="A-B", help="steps A to B in ink, earlier ones in grey, and nothing later")
     group.add_argument("--strip", nargs="?", const="mark", choices=("mark", "step"),
                        help="a film strip: a picture for every lettered mark, or for every step")
     group.add_argument("--by", choices=("sheet", STAGED),
@@ -54,6 +54,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add_choices(command, strict=True, inertia=True)
     add_travel(command)
     add_preference(command)
+    add_pencil(command)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -63,7 +64,7 @@ def run(options: argparse.Namespace) -> int:
         write(design_text(load_scene(options), drawing_options(options)), options.output or STANDARD)
         return 0
     sheet_format(options.output, options.dpi)  # before any work is done
-    excerpt = SheetExcerpt(options.until or "", options.steps or "", options.strip or "", options.by or "",
+    excerpt = SheetExcerpt(options.steps or "", options.strip or "", options.by or "",
                            options.numbers, options.dpi)
     for line in save_sheet(load_scene(options), options.output, drawing_options(options), excerpt):
         Messages(options.quiet).remark(f"{options.scene}: {line}")

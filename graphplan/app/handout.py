@@ -24,13 +24,13 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", metavar="FILE", required=True, help="the file to write: .pdf or .html")
     command.add_argument("--only", choices=PARTS, help="this part of a .pdf alone")
     add_sheet(command)
-    add_choices(command, method=False, strict=True)
+    add_choices(command, method=False)
     add_travel(command)
     add_offer(command)
 
 
 def run(options: argparse.Namespace) -> int:
     handout_ending(options.output, options.only)
-    save_handout(load_source(options, "plan", "strict", "at"), options.output, drawing_options(options), options.only,
+    save_handout(load_source(options, "plan", "at"), options.output, drawing_options(options), options.only,
                  options.choices)
     return 0

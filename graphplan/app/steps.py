@@ -13,7 +13,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from graphplan.app.choices import add_choices, add_preference, add_sheet, add_travel, on_paper
+from graphplan.app.choices import add_choices, add_pencil, add_preference, add_sheet, add_travel, on_paper
 from graphplan.app.files import as_json, write
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add_choices(command, strict=True, inertia=True)
     add_travel(command)
     add_preference(command)
+    add_pencil(command)
 
 
 def run(options: argparse.Namespace) -> int:

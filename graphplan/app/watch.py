@@ -25,7 +25,7 @@ PERIOD = 0.3  # seconds between two looks at the file
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("scene", metavar="SCENE", help="a scene file")
-    command.add_argument("-o", "--output", metavar="SHEET.svg", help="the sheet, without it SCENE.svg; as draw has it")
+    command.add_argument("-o", "--output", metavar="FILE", help="the sheet, without it SCENE.svg; as draw has it")
     add_settings(command)
 
 

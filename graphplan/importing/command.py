@@ -26,7 +26,7 @@ from graphplan.app.files import STANDARD, kind, refuse_same_output, write
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("file", metavar="FILE", help="a file of GeoGebra, Linkage or PMKS+, or a DXF")
-    command.add_argument("-o", "--output", metavar="SCENE", default=STANDARD,
+    command.add_argument("-o", "--output", metavar="FILE", default=STANDARD,
                          help="the scene to write, such as scene.toml; without it standard output")
 
 

@@ -21,7 +21,7 @@ from graphplan.live_pages.scene_page import live_page
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("-o", "--output", metavar="PAGE.html", required=True, help="the page to write")
+    command.add_argument("-o", "--output", metavar="FILE", required=True, help="the page to write")
     add_language(command)
     add_choices(command, method=False)
     add_offer(command)

@@ -9,7 +9,7 @@ centre does, for draw, solve and cycle.
 
 examples:
   graphplan balance ozols-16-1 -o sheet.svg
-  graphplan balance ozols-16-1 --counterweights share --share 0.6 --radius 1=80 --positions 72 -o engine.json
+  graphplan balance ozols-16-1 --counterweights share=0.6 --radius 1=80 --positions 72 -o engine.json
   graphplan balance ozols-16-1 -o dyads.toml && graphplan draw dyads.toml -o dyads.svg
   graphplan balance rotor.toml -o rotor.svg
   graphplan new watt.toml --kind governor && graphplan balance watt.toml -o watt.svg
@@ -22,16 +22,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from functools import partial
 
-from graphplan.app.choices import (
-    SCENE,
-    Messages,
-    add_pencil,
-    add_subject,
-    count,
-    drawing_options,
-    run_subject,
-    text_of_scene,
-)
+from graphplan.app.choices import SCENE, Messages, add_subject, count, drawing_options, run_subject, text_of_scene
 from graphplan.app.files import SHEETS
 from graphplan.app.subjects import Subject
 from graphplan.errors import Refused
@@ -46,8 +37,7 @@ from graphplan.machines.subjects import (
     refuse_options,
 )
 
-PICTURES = {"paper": SHEETS}
-OF_LINKAGES = "counterweights", "radius", "keep", "share"
+OF_LINKAGES = "counterweights", "radius", "keep"
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -58,15 +48,13 @@ def options(command: argparse.ArgumentParser) -> None:
         "of a linkage also .toml; without it JSON on standard output")
     add("--positions", type=count("--positions", 3), metavar="N",
         help=f"in how many poses of the cycle ({BALANCED_POSITIONS})")
-    add("--counterweights", choices=WAYS, default="", help="so that the mass centre stands still (full, the default "
-        "where it can be done); moves along the guide on the frame alone (partial); of a slider-crank on the crank "
-        "alone, for what rotates and a share of what reciprocates (share); or none")
+    add("--counterweights", type=_counterweights, metavar="HOW", help="full: the mass centre stands still "
+        "(the default where that is possible); partial: it moves along the first guide on the frame; share: on the "
+        f"crank of a slider-crank, for the rotating mass and {SHARE:g} of the reciprocating one, or share=0.6; none")
     add("--radius", action="append", default=[], metavar="LINK=LENGTH", help="how far from its pivot the counterweight "
         "of a link stands; without it the length of the link")
     add("--keep", action="append", default=[], metavar="LINK", help="a link that gets no counterweight")
-    add("--share", type=float, metavar="PART", help=f"of the reciprocating mass that is balanced ({SHARE:g})")
-    add_pencil(command)
-    add_subject(command, "task")
+    add_subject(command)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -74,8 +62,8 @@ def run(options: argparse.Namespace) -> int:
 
     text = text_of_scene(options, options.scene)
     if "rotor" in tables_of(text, options.scene):
-        return run_subject(options, "rotor", ENDINGS, partial(_rotor, text), **PICTURES)
-    return run_subject(options, "balance", (*ENDINGS[:2], *SCENE, *SHEETS), partial(_linkage, text), **PICTURES)
+        return run_subject(options, "rotor", ENDINGS, partial(_rotor, text))
+    return run_subject(options, "balance", (*ENDINGS[:2], *SCENE, *SHEETS), partial(_linkage, text))
 
 
 def _linkage(text: str, options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
@@ -86,8 +74,9 @@ def _linkage(text: str, options: argparse.Namespace, ending: str, messages: Mess
     if scene.governor:
         _refuse_options(options, "a governor", OF_LINKAGES)
         return balance_governor(scene, drawing_options(options), options.positions)
-    subject = balance_linkage(scene, drawing_options(options), options.positions,
-                              options.counterweights, _radii(options.radius), options.keep, options.share)
+    way, share = options.counterweights or ("", None)
+    subject = balance_linkage(scene, drawing_options(options), options.positions, way, _radii(options.radius),
+                              options.keep, share)
     return replace(subject, remarks=()) if ending in SCENE else subject
 
 
@@ -100,6 +89,17 @@ def _rotor(text: str, options: argparse.Namespace, ending: str, messages: Messag
 def _refuse_options(options: argparse.Namespace, subject: str, names: Iterable[str]) -> None:
     """Fail with `Refused` where an option is given that does not apply to a subject."""
     refuse_options(subject, **{f"--{name}": getattr(options, name) for name in names})
+
+
+def _counterweights(text: str) -> tuple[str, float | None]:
+    """The kind of counterweights that an option names, and the share of the reciprocating mass, if it is said."""
+    way, equals, share = text.partition("=")
+    if way not in WAYS or (equals and way != "share"):
+        raise Refused(f"--counterweights {text}", "unknown", f"choose one of {', '.join(WAYS)}, or share=0.6")
+    try:
+        return way, float(share) if equals else None
+    except ValueError:
+        raise Refused(f"--counterweights {text}", "not a number", "such as share=0.6") from None
 
 
 def _radii(texts: list[str]) -> dict[str, float]:

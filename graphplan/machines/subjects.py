@@ -82,7 +82,7 @@ def _with_wish(scene: Scene, amounts: Mapping[str, Fraction], closes: str | None
     from graphplan.mechanism.model import Flywheel
 
     if "inertia" in amounts and "unevenness" in amounts:
-        raise Refused("--inertia and --unevenness", "each follows from the other", "one of them")
+        raise Refused("inertia and unevenness", "each follows from the other", "one of them")
     if scene.flywheel is None and not ("speed" in amounts and len(amounts) > 1):
         return scene
     wish = scene.flywheel or Flywheel(amounts["speed"])
@@ -96,7 +96,7 @@ def _amount(name: str, amount: Amount) -> Fraction:
     number = amount if isinstance(amount, Fraction) else Fraction(repr(amount))
     limit = UNEVENNESS_LIMIT if name == "unevenness" else None
     if number < 0 or (number == 0 and name != "inertia") or (limit and number >= limit):
-        raise Refused(f"--{name} {amount}", "out of range", "more than 0 and less than 2" if limit else "more than 0")
+        raise Refused(f"{name} {amount}", "out of range", "more than 0 and less than 2" if limit else "more than 0")
     return number
 
 
@@ -137,7 +137,7 @@ def find_motion(source: Scene | str | os.PathLike[str], speed: float | None, tra
 
     for name, value in (("speed", speed), ("travel", travel)):
         if value is not None and not math.isfinite(value):
-            raise Refused(f"--{name}", f"{value:g}", "give a number")
+            raise Refused(name, f"{value:g}", "give a number")
     positions = positions or POSITIONS
     scene = driven_on_sheet(source, options)
     result = motion_of_scene(scene, speed, travel, steady)
@@ -202,11 +202,9 @@ def balance_linkage(source: Scene | str | os.PathLike[str], options: Options, po
     from graphplan.machines.linkages.sheet import balance_sheet, numbers, table
 
     if share is not None and (counterweights != "share" or not 0 <= share <= 1):
-        raise Refused(f"--share {share:g}", "not a fraction of the reciprocating mass", "give 0 to 1, with "
-                      "--counterweights share")
+        raise Refused(f"share={share:g}", "not a share of the reciprocating mass",
+                      "give 0 to 1, with counterweights share")
     scene = with_presentation(driven_scene(source), options)
-    if options.pencil:
-        raise Refused("--pencil", "a linkage is computed, not drawn", "leave it out")
     result = cache(partial(balancing, scene, positions or BALANCED_POSITIONS, counterweights, keep, dict(radii or {}),
                            SHARE if share is None else share))
 

@@ -430,8 +430,8 @@ def _screw(row: TableRow) -> Screw | None:
     screw = Screw(slide.links, row["lead"], row["radius"], reduced, wedge)
     if screw.slope * float(reduced) < 1:
         return screw
-    return row.items["lead"].fault("the lead angle and the friction angle are 90 degrees or more: nothing drives it",
-                                   "a lead that is small beside the radius")
+    return row.items["lead"].fault("the lead angle and the friction angle are 90 degrees or more: the screw cannot be "
+                                   "driven", "a lead that is small beside the radius")
 
 
 def _read_efficiency(item: SceneItem, names: SceneNames) -> Fraction | None:

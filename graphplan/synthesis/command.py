@@ -35,11 +35,11 @@ DRAWN = (".svg", ".pdf", ".png", ".tex", ".dxf")  # the sheet
 def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("task", metavar="TASK", help="a task file, a packaged task, or - for standard input")
-    add("-o", "--output", metavar="SHEET.svg", help="the file to write: .svg, .pdf, .png, .tex or .dxf, the sheet (a "
+    add("-o", "--output", metavar="FILE", help="the file to write: .svg, .pdf, .png, .tex or .dxf, the sheet (a "
         ".dxf of gears: the wheels); .json, the numbers; .toml, a scene; without it the numbers on standard output")
     add("--solution", type=count("--solution", 1), metavar="N", help="which solution the sheet or the scene shows (1)")
     add("--task", dest="unsolved", action="store_true", help="the sheet with what is given alone, and boxes to fill in")
-    add_subject(command, "task")
+    add_subject(command)
 
 
 def run(options: argparse.Namespace) -> int:

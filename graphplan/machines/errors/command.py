@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.app.choices import Messages, add_choices, add_sheet, drawing_options, load_scene
+from graphplan.app.choices import Messages, add_language, add_settings, drawing_options, load_scene
 from graphplan.app.files import kind
 from graphplan.machines.errors.subject import ERROR_ENDINGS, find_errors
 
@@ -22,8 +22,8 @@ from graphplan.machines.errors.subject import ERROR_ENDINGS, find_errors
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", metavar="FILE", help="the sheets: .svg, .pdf, .png, .tex or .dxf; the "
                          "numbers: .json; without it JSON on standard output")
-    add_choices(command)
-    add_sheet(command)
+    add_settings(command)
+    add_language(command)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -11,7 +11,7 @@ FOLDER gets a scene for each variant, booklet.pdf, key.pdf, key.csv, and class.j
 
 examples:
   graphplan variants four-bar -n 3 -o class
-  graphplan variants scene.toml --names class.csv --spare 2 --paper A3 -o class
+  graphplan variants scene.toml --names class.csv -n 32 --paper A3 -o class
   graphplan variants stroke-slider-crank -n 12 -o class     of a task of graphplan synthesize
 """
 
@@ -29,11 +29,9 @@ def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("-o", "--output", metavar="FOLDER", required=True, help="the folder to make; it is not there yet, or empty")
     add("-n", "--count", type=count("-n", 1, MAX_VARIANTS), metavar="N",
-        help="how many tasks (without it one for each name)")
+        help="how many tasks; more than there are names for spare ones (without it one for each name)")
     add("--seed", type=count("--seed", 0), default=1, metavar="S", help="what the numbers are drawn by (1)")
     add("--names", metavar="CLASS.csv", help="the students: a column called name or student, or else the first")
-    add("--spare", type=count("--spare", 0, MAX_VARIANTS), default=0, metavar="K",
-        help="so many more tasks without a name")
     add("--jobs", type=count("--jobs", 1), metavar="N", help="how many processes work (as many as there are cores)")
     add_paper(command, "the sheets of the class; without it that of the scene itself")
     add_language(command)
@@ -43,7 +41,6 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     messages = Messages(options.quiet)
     new_folder(options.output)
-    request = ClassRequest(options.count, options.names, options.seed, options.spare, options.jobs, messages.remark,
-                           messages.progress)
+    request = ClassRequest(options.count, options.names, options.seed, options.jobs, messages.remark, messages.progress)
     write_variants(load_source(options, "plan"), options.output, drawing_options(options), request)
     return 0

@@ -1,4 +1,4 @@
-"""Errors of position by transformed mechanisms: for each dimension a pair in its place, whose motion is the error.
+"""Position errors by transformed mechanisms: for each dimension a pair in its place, whose motion is the error.
 
 The drives are held. Instead of one dimension stands a pair that changes it: a slide along a distance or across a
 guide, a hinge at the vertex of an angle. What this mechanism moves with a unit of velocity is the coefficient of the

@@ -150,6 +150,12 @@ def test_every_link_leads_somewhere(page: Path) -> None:
             assert head in {anchor(title) for title in re.findall(r"(?m)^#+ (.+)$", without_fences(text_of(target)))}
 
 
+def test_the_manual_can_be_read() -> None:
+    """Its chapters have at most 18,000 words, code apart; the README takes at most 8 kB."""
+    assert sum(len(without_fences(text).split()) for text in chapters().values()) <= 18_000
+    assert len(README.read_bytes()) <= 8192
+
+
 def test_the_contents_list_every_chapter_once() -> None:
     """The contents lead to all chapters by topic."""
     listed = re.findall(r"(?m)^- \[[^\]]+\]\(([\w-]+)\.md\)", text_of(CHAPTERS / f"{CONTENTS}.md"))

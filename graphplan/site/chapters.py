@@ -213,8 +213,8 @@ class ChapterPage(SitePage):
 
 
 HEAD = """\
-The public names of `import graphplan as gp`, from their docstrings. Lengths, forces and masses are in the scene's units,
-angles and travels in degrees, rates in rad/s; vectors are complex numbers.
+The public names of `import graphplan as gp`, from their docstrings. Lengths, forces and masses are in the scene's
+units, angles and travels in degrees, rates in rad/s; vectors are complex numbers.
 """
 GROUPS = {
     "Scenes": "scene load parse at Scene WrittenScene",

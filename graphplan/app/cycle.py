@@ -1,12 +1,11 @@
-"""Follow the mechanism around its drive's turn: every pose constructed, checked, tabled and plotted.
+"""Follow the mechanism over a turn of its drive: every pose constructed, checked, tabulated and plotted.
 
-Poses are followed from the given one without a jump to another branch; those that cannot be reached or are
-singular stand on standard error and in the table, each with its place and reason. The table is comma-separated
-text, an archive of arrays (.npz), or JSON. Paths of points and centrodes of links are tabled too, and drawn with the
-mechanism alone. The plot shows displacement, velocity and acceleration, with graphical
-differentiation and integration compared with the plans; or whatever the table has as plain curves, polar diagrams of
-vectors, and families over values of the scene. An animation shows the mechanism with its construction in
-motion: a full turn, or there and back between limits.
+The mechanism stays on the assembly branch of the given pose. Poses that are singular or cannot be reached are reported
+on standard error and in the table, with travel and reason. The table is comma-separated text, an archive of arrays
+(.npz), or JSON; it has the paths of points and the centrodes, too, which --paths draws with the mechanism alone. --plot
+draws displacement, velocity and acceleration, with graphical differentiation and integration; or any column of the
+table as a plain curve, polar diagrams of vectors, and families over a value of the scene. --animate shows the mechanism
+with its construction in motion: over a full turn, or to and fro between limits.
 
 examples:
   graphplan cycle four-bar --positions 12
@@ -52,13 +51,13 @@ NOTHING_REACHED = 3
 def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("--positions", type=count("--positions", 1), metavar="N",
-        help=f"how many poses; without it an animation has {DEFAULT_POSES}")
+        help=f"the number of poses ({DEFAULT_POSES} in an animation)")
     add("--from", type=float, dest="start", metavar="A",
-        help="a range of the first drive's travel from the given pose, in degrees or lengths; without it one full turn")
-    add("--to", type=float, dest="end", metavar="B", help="the end of the range, which is a pose too")
+        help="the range of the first drive's travel from the given pose, in degrees or lengths (one full turn)")
+    add("--to", type=float, dest="end", metavar="B", help="the end of the range, included")
     add("-o", "--output", metavar="FILE", help=".csv, .npz or .json; else comma-separated text on standard output")
     add_curves(command)
-    add("--paths", metavar="FILE.svg", help="the mechanism with the paths and centrodes that are asked for")
+    add("--paths", metavar="FILE.svg", help="draw the mechanism with these paths and centrodes")
     add_plot(add)
     add_animation(add)
     add("--workers", default="1", metavar="N", help="processes that share the work, or a dask scheduler's address")
@@ -319,7 +318,7 @@ def _film(drawing: Construction, composition: Composition, moved: Loop, messages
         frames[k] = frame
         messages.progress(f"drawn: {len(frames)} of {len(reached)}" if len(frames) < len(reached) else "")
     if bare := sum(not drawn for _, drawn in frames.values()):
-        messages.remark(f"the mechanism alone, as nothing can be drawn there, in {bare} of {len(frames)} poses")
+        messages.remark(f"the mechanism alone, as no construction can be drawn there, in{bare} of {len(frames)} poses")
     poses, (each, name) = [k for k in moved.order if k in frames], travel_unit(drawing.scene)
     words = (arrange("{0}°" if name == "degrees" else "{0} {1}", digits(float(turn.travel[k]) / each), unit(name))
              for k in poses)

@@ -1,4 +1,4 @@
-"""Write handouts: the task for students, the steps as a guide, the solution; or a page that goes through the steps.
+"""Write handouts: the task for students, the guided construction, the solution; or a page that shows the steps.
 
 A PDF has the task sheet, its guided version and the solution, in true size and in the same frame, so that a drawing
 can be laid over the solution. A .html is the live page, for a browser without a network, with the steps in front: step

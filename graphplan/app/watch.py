@@ -1,7 +1,6 @@
-"""Draw a scene anew whenever its file is saved, until Ctrl-C.
+"""Redraw a scene whenever its file is saved, until Ctrl-C.
 
-Where the scene has faults they are listed, and the sheet stays as it was. An editor may save as it likes: over the
-file, or by another file in its place.
+If the scene has faults they are listed, and the sheet stays as it was. The editor may overwrite the file or replace it.
 
 examples:
   graphplan watch scene.toml                     scene.svg in the same folder

@@ -55,9 +55,9 @@ def options(command: argparse.ArgumentParser) -> None:
     add("-o", "--output", metavar="FILE", help="the file to write: .svg, .pdf, .png or .tex, the sheet; .dxf, the "
         "profile; .json, the numbers; .toml, a scene; without it SVG on standard output")
     add("--at", type=float, metavar="TRAVEL", help="the pose of the scene, in degrees of the cam (0)")
-    add("--positions", type=count("--positions", 1), metavar="N", help=f"of the table in JSON ({POSITIONS})")
+    add("--positions", type=count("--positions", 1), metavar="N", help=f"positions of the table in JSON ({POSITIONS})")
     add("--tolerance", type=float, metavar="LENGTH",
-        help=f"how far arcs may be off the profile, in the task's lengths ({TOLERANCE})")
+        help=f"largest error of the profile's arcs, in the task's lengths ({TOLERANCE})")
     add_subject(command)
 
 

@@ -1,11 +1,11 @@
 """Balance a linkage or a rotor: mass centre, shaking force and counterweights, or correction masses; or a governor.
 
-SCENE has links with masses; a file with a table [rotor] is a rotor, a scene with a table [governor] a governor, of
-which the characteristic, speeds, stability and degree of irregularity are found. Of a linkage the mass centre is
-constructed by principal vectors over the cycle, with its velocity and acceleration, and what its inertia does to the
-frame. JSON has the numbers, in kg m, N and N m, points in the scene's lengths, travel in degrees (lengths of a drive
-that slides); .csv the table over the cycle. A .toml is the scene with added dyads whose joint S moves as the mass
-centre does, for draw, solve and cycle.
+SCENE has links with masses. A file with a table [rotor] is a rotor; a scene with a table [governor] is a governor, of
+which the characteristic, speeds, stability and degree of irregularity are found. For a linkage the mass centre is
+constructed by principal vectors over the cycle, with its velocity and acceleration, the shaking force and its moment.
+JSON is in kg m, N and N m, points in the scene's lengths, travel in degrees (lengths of a drive that slides); .csv has
+the table over the cycle. A .toml is the scene with added dyads whose joint S moves as the mass centre does, for draw,
+solve and cycle.
 
 examples:
   graphplan balance ozols-16-1 -o sheet.svg
@@ -47,12 +47,12 @@ def options(command: argparse.ArgumentParser) -> None:
     add("-o", "--output", metavar="FILE", help="the sheet: .svg, .pdf, .png, .tex or .dxf; the numbers: .json or .csv; "
         "of a linkage also .toml; without it JSON on standard output")
     add("--positions", type=count("--positions", 3), metavar="N",
-        help=f"in how many poses of the cycle ({BALANCED_POSITIONS})")
+        help=f"number of poses of the cycle ({BALANCED_POSITIONS})")
     add("--counterweights", type=_counterweights, metavar="HOW", help="full: the mass centre stands still "
         "(the default where that is possible); partial: it moves along the first guide on the frame; share: on the "
         f"crank of a slider-crank, for the rotating mass and {SHARE:g} of the reciprocating one, or share=0.6; none")
-    add("--radius", action="append", default=[], metavar="LINK=LENGTH", help="how far from its pivot the counterweight "
-        "of a link stands; without it the length of the link")
+    add("--radius", action="append", default=[], metavar="LINK=LENGTH", help="distance of a link's counterweight from "
+        "its pivot (the length of the link)")
     add("--keep", action="append", default=[], metavar="LINK", help="a link that gets no counterweight")
     add_subject(command)
 

@@ -144,7 +144,7 @@ def find_motion(source: Scene | str | os.PathLike[str], speed: float | None, tra
     drawing = draw_motion(result.motion, min(positions, MAX_DRAWN))
     check, remarks = check_motion(result, drawing), list[str]()
     if (stop := result.motion.stop) is not None:
-        when = f"after {stop.time:.6g} s" if math.isfinite(stop.time) else "and nears it for ever"
+        when = f"after {stop.time:.6g} s" if math.isfinite(stop.time) else "which it approaches asymptotically"
         remarks.append(f"{scene.name}: the machine stops at {result.machine.travel_text(stop.travel)}, {when}")
     if result.reduction.friction is not None:
         remarks.append(f"{scene.name}: friction is taken as it is at the speed of the drive in the scene")

@@ -77,7 +77,7 @@ def dimensions(scene: Scene) -> list[NamedDimension]:
         raise Refused(scene.name, "no dimension has a tolerance", 'a table [tolerances] with dimensions, such as '
                       '"O A" = 0.05')
     if not scene.drives:
-        raise Refused(scene.name, "nothing is driven, so no position is held", "a scene with a [[drive]]")
+        raise Refused(scene.name, "without a drive no position is held", "a scene with a [[drive]]")
     return [dimension for dimension in every if dimension]
 
 

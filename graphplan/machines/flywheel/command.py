@@ -33,10 +33,10 @@ def options(command: argparse.ArgumentParser) -> None:
         f"{', '.join(SHEETS)}; without it JSON on standard output")
     add("--inertia", metavar="X", help="find the unevenness with a flywheel of this inertia, in mass * m2")
     add("--positions", type=count("--positions", MIN_POSITIONS, MAX_POSITIONS), metavar="N",
-        help="in how many plans of the cycle it is drawn and tabled (24 of each turn)")
+        help="number of plans of the cycle, drawn and tabulated (24 for each turn)")
     add("--by", choices=CONSTRUCTIONS, default=CONSTRUCTIONS[0],
-        help="the construction that the sheet draws (wittenbauer); areas take the inertia as constant")
-    add("--task", action="store_true", help="the sheet with what is given alone, and tables to fill in")
+        help="the construction on the sheet (wittenbauer); areas take the inertia as constant")
+    add("--task", action="store_true", help="the sheet with the given data alone, and tables to fill in")
     add_subject(command)
 
 

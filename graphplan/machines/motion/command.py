@@ -27,7 +27,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("-o", "--output", metavar="FILE", help=".json, the numbers, or .csv, a table of them; "
         f"{', '.join(SHEETS)}, the sheet; without it JSON on standard output")
     add("--positions", type=count("--positions", 4, 7200), metavar="N",
-        help=f"in how many equal parts of the travel ({POSITIONS})")
+        help=f"number of equal parts of the travel ({POSITIONS})")
     add("--steady", action="store_true", help="the steady cycle, which repeats itself; run.speed is its mean speed")
     add_subject(command)
 

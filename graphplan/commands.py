@@ -35,6 +35,7 @@ CORE = {  # the commands of the core; leaves have further ones
     "handout": Command("teach", "graphplan.app.handout"),
     "completion": Command("share", "graphplan.app.completion", takes_scene=False),
 }
+RESULTS_ALONE = "list", "schema", "board", "completion"  # commands without remarks and progress, which need no --quiet
 HELP = "help"
 RAW = argparse.RawDescriptionHelpFormatter
 
@@ -92,7 +93,7 @@ def _run(arguments: Sequence[str]) -> int:
             if unknown:
                 raise _unknown_option(words[0], unknown)
             messages = Messages(options.quiet)
-            with listening(lambda name: messages.remark(f"{name}: written")):
+            with listening(lambda name: messages.remark(f"wrote {name}")):
                 return int(options.run(options))
         finally:
             flush()
@@ -183,8 +184,9 @@ def parser(names: Sequence[str]) -> Parser:
             command.add_argument("scene", metavar="SCENE",
                                  help="a scene file, - for standard input, or a packaged scene")
         module.options(command)
-        command.add_argument("-q", "--quiet", action="store_true", help="no progress and no remarks, errors alone")
-        command.set_defaults(run=module.run)
+        if name not in RESULTS_ALONE:
+            command.add_argument("-q", "--quiet", action="store_true", help="no progress and no remarks, errors alone")
+        command.set_defaults(run=module.run, quiet=False)
     return whole
 
 

@@ -18,7 +18,7 @@ from graphplan.commands import commands, parser
 from graphplan.machines.rotors.rotor import TASK as ROTOR
 from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 from graphplan.mechanism.schema import reference
-from graphplan.site.chapters import CONTENTS, GROUPS, anchor, api_reference, chapters
+from graphplan.site.chapters import CONTENTS, GROUPS, anchor, chapters, python_reference
 from graphplan.site.scene_pages import TOPICS
 
 ROOT = Path(__file__).parent.parent
@@ -150,6 +150,12 @@ def test_every_link_leads_somewhere(page: Path) -> None:
             assert head in {anchor(title) for title in re.findall(r"(?m)^#+ (.+)$", without_fences(text_of(target)))}
 
 
+def test_the_manual_can_be_read() -> None:
+    """Its chapters have at most 18,000 words, code apart; the README takes at most 8 kB."""
+    assert sum(len(without_fences(text).split()) for text in chapters().values()) <= 18_000
+    assert len(README.read_bytes()) <= 8192
+
+
 def test_the_contents_list_every_chapter_once() -> None:
     """The contents lead to all chapters by topic."""
     listed = re.findall(r"(?m)^- \[[^\]]+\]\(([\w-]+)\.md\)", text_of(CHAPTERS / f"{CONTENTS}.md"))
@@ -195,6 +201,6 @@ def test_every_command_line_can_be_typed(page: Path, options: dict[str, set[str]
 
 
 def test_the_reference_is_what_the_docstrings_say() -> None:
-    """`python -m graphplan.site.chapters` writes the chapter, in which every public name stands once."""
-    assert (CHAPTERS / "api.md").read_text(encoding="utf-8") == api_reference()
+    """The table of the gallery is made from the docstrings, and every public name stands in it once."""
+    assert python_reference() in text_of(TABLES / "python.md")
     assert sorted(" ".join(GROUPS.values()).split()) == sorted(gp.__all__)

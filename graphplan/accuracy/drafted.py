@@ -174,10 +174,10 @@ class Errors:
             return model
         remark = [self.remark] if self.remark else []
         if math.isinf(self.error):
-            flat = said("No pencil follows what – is told of: curves cross too flat, most of all at {0}.",
+            flat = said("No error is given where curves cross at too small an angle (–), the smallest at {0}.",
                         self.step_name(self.worst.worst_step))
             return join((model, flat, *remark), " ")
-        worst = said("Worst: {0}, {1} of the largest; most of it comes from {2}.", self.worst.label,
+        worst = said("Largest error: {0}, {1} of the largest value; largest source: {2}.", self.worst.label,
                      percent(self.error), self.step_name(self.worst.worst_step))
         return join((model, worst, *remark), " ")
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import math
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
 from graphplan.accuracy.drafted import Drafted, draft, percent, shown_motion
-from graphplan.accuracy.expected import sample_hands
 from graphplan.check.trusted import construct
 from graphplan.design.hand import Pencil
 from graphplan.errors import ConstructionError, GraphplanError, Refused
@@ -20,7 +18,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import METHODS, PREFERENCES
 from graphplan.methods.construction import Construction
 from graphplan.methods.design import OPEN, Design
-from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
+from graphplan.phrases import Phrase, Said, arrange, join, phrase, said
 from graphplan.sheet.layout.paper import sheet_size
 from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.words.rows import Deviation
@@ -199,19 +197,18 @@ WEIGHED: dict[str, tuple[Phrase, Callable[[Drafted], tuple[float, ...]]]] = dict
 TABLE_WIDTH = 118
 COUNT_COLUMNS = "form", "sheet", "steps", "operations", "lines", "arcs"
 SQUARES_COLUMNS, STRICT_COLUMNS = ("squares", "dividers"), ("S", "E")
-CROSSING_COLUMNS = "changes", "flattest", "off"
-ERROR_COLUMNS = "form", "worst result", "beside largest", "in its unit", "mm", "most from"
+CROSSING_COLUMNS = "instrument changes", "flattest", "off sheet"
+ERROR_COLUMNS = "form", "worst result", "relative error", "absolute error", "mm on paper", "largest source"
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """All forms on one kind of plan, by set squares or strictly; `hands` is how many hands also draw each."""
+    """All forms on one kind of plan, by set squares or strictly."""
 
     scene: Scene
     plan: str
     strict: bool
     forms: tuple[Form, ...]
-    hands: int = 0
 
     @property
     def drawn_forms(self) -> list[tuple[str, Drafted]]:
@@ -223,8 +220,7 @@ class Comparison:
         tools = "compasses and straightedge" if self.strict else "set squares, compasses and dividers"
         head = (*COUNT_COLUMNS, *(STRICT_COLUMNS if self.strict else SQUARES_COLUMNS), *CROSSING_COLUMNS)
         costs = [head, *(self._cost_row(name, draft) for name, draft in self.drawn_forms)]
-        errors = [(*ERROR_COLUMNS, *(("hands", "missed") if self.hands else ())),
-                  *(self._error_row(name, draft) for name, draft in self.drawn_forms)]
+        errors = [ERROR_COLUMNS, *(self._error_row(name, draft) for name, draft in self.drawn_forms)]
         refused = [form.verdict for form in self.forms if form.drafted is None]
         return ["", f"{self.plan.capitalize()} plans, with {tools}:",
                 *(align_columns(costs) if self.drawn_forms else ()),
@@ -241,8 +237,7 @@ class Comparison:
         draft = form.drafted
         if draft is None:
             return {"refused": str(form.refusal)}
-        hands = {"hands": asdict(sample_hands(draft.drawing, draft.hand, self.hands))} if self.hands else {}
-        return {"cost": draft.cost.data, "pencil": draft.data, **hands}
+        return {"cost": draft.cost.data, "pencil": draft.data}
 
     def _cost_row(self, name: str, draft: Drafted) -> tuple[str, ...]:
         """Return the row of a form in the table of operations."""
@@ -254,31 +249,23 @@ class Comparison:
         return name, draft.paper, *map(str, numbers), flattest, str(len(cost.off_sheet))
 
     def _error_row(self, name: str, draft: Drafted) -> tuple[str, ...]:
-        """One form's row of errors: those of its worst result, and how it scatters relative to what is expected."""
+        """Return the row of a form in the table of errors: those of its worst result."""
         worst = draft.worst
         if worst is None:
-            return name, *[""] * (len(ERROR_COLUMNS) - 1 + 2 * bool(self.hands))
+            return name, *[""] * (len(ERROR_COLUMNS) - 1)
         deviation, mm = worst.deviation.value, worst.deviation.mm
-        row = (name, worst.label, percent(draft.error), f"{Deviation(deviation).text} {worst.unit(self.scene)}",
+        return (name, worst.label, percent(draft.error), f"{Deviation(deviation).text} {worst.unit(self.scene)}",
                "" if mm is None else Deviation(mm).text, draft.step_name(worst.worst_step))
-        if not self.hands:
-            return row
-        scatter = sample_hands(draft.drawing, draft.hand, self.hands)
-        off = scatter.results[worst.kind][worst.of].deviation
-        ratio = f"×{digits(off / deviation, 3)}" if 0 < deviation < math.inf else ""
-        return *row, ratio, percent(scatter.missed)
 
 
-LEGEND = (
-    "S, E: Lemoine's simplicity and exactitude. Flattest: the angle of the flattest crossing, and its step. "
-    "Off: marks outside the paper of their plans. Beside largest: beside the largest value of its kind.",
-    "Hands: the scatter of noisy hands beside what is expected in first order. Missed: those whose lines did not meet.",
-)
+LEGEND = ("S, E: Lemoine's simplicity and exactitude. Instrument changes: how often another instrument is taken. "
+          "Flattest: the smallest angle between crossing lines, and its step. Off sheet: marks outside the paper of "
+          "their plans. Relative error: relative to the largest value of its kind.")
 
 
-def legend(hands: int) -> list[str]:
+def legend() -> list[str]:
     """Explanation of the tables' columns."""
-    return ["", *(line for sentence in LEGEND[: 2 if hands else 1] for line in textwrap.wrap(sentence, TABLE_WIDTH))]
+    return ["", *textwrap.wrap(LEGEND, TABLE_WIDTH)]
 
 
 def align_columns(rows: Sequence[Sequence[str]]) -> list[str]:

@@ -1,4 +1,4 @@
-"""List the packaged scenes, with their links and what they ask for, and the tasks of `graphplan synthesize`.
+"""List the packaged scenes, with their links and results, and the tasks of `graphplan synthesize`.
 
 examples:
   graphplan list

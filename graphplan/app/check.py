@@ -1,4 +1,4 @@
-"""Check the construction against the analytic solver, and each drawn step against what it claims to be.
+"""Compare the construction with the analytic solver, and test the claims of each drawn step.
 
 examples:
   graphplan check alt-eight-link

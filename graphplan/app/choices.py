@@ -104,11 +104,12 @@ def add_choices(command: argparse.ArgumentParser, *, method: bool = True, strict
                          pencil=None, paper=None, language="")
     if method:
         add("--method", default="", choices=(*METHODS, *METHOD_PAIRS, *OF_PATHS), metavar="METHOD",
-            help=f"the form of loci and rings ({', '.join(METHODS)}; a pair such as auxiliary,trial is that of "
-            f"velocities and that of accelerations), or of centres of curvature ({', '.join(OF_PATHS)}); without it "
-            "the pose chooses")
-    add("--plan", default="", metavar="PLAN", help="orthogonal, polar or triangles (of gears), of the forces lever, "
-        "polygons or both, such as polar,lever; without it the lengths of the links decide, and forces have both")
+            help=f"how loci and rings are drawn ({', '.join(METHODS)}; a pair such as auxiliary,trial is for "
+            f"velocities and for accelerations), or centres of curvature ({', '.join(OF_PATHS)}); by default the "
+            "best for the pose")
+    add("--plan", default="", metavar="PLAN", help="plan of motion: orthogonal, polar (velocity and acceleration "
+        "polygons) or triangles (of gears), by default by the lengths of the links; of forces: lever, polygons or both "
+        "(default); such as polar,lever")
     add_settings(command)
     if inertia:
         add("--inertia", default="", choices=INERTIA, metavar="FORM",
@@ -120,15 +121,15 @@ def add_choices(command: argparse.ArgumentParser, *, method: bool = True, strict
 def add_settings(command: argparse.ArgumentParser) -> None:
     """The option that changes values of the scene, by their paths."""
     command.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", dest="settings",
-                         help="another value in the scene, such as points.A.angle=40, sheet.frame=gost or "
-                         "sheet.curves=all; places in lists count from 0, and * is each")
+                         help="change a value of the scene, such as points.A.angle=40, sheet.frame=gost or "
+                         "sheet.curves=all; entries of lists count from 0, and * is each")
 
 
 def add_travel(command: argparse.ArgumentParser) -> None:
     """The option that asks for another pose."""
     command.add_argument("--at", metavar="TRAVEL", help="the pose after the drive has moved by TRAVEL, in degrees or "
-                         "lengths; of several drives such as 60,-30, or the first alone; or outer or inner, an extreme "
-                         "position, such as 'outer 3'")
+                         "lengths (of several drives such as 60,-30, or the first one's); or an extreme position, "
+                         "outer or inner, such as 'outer 3' of link 3")
 
 
 def add_language(command: argparse.ArgumentParser) -> None:
@@ -140,9 +141,8 @@ def add_language(command: argparse.ArgumentParser) -> None:
 def add_offer(command: argparse.ArgumentParser) -> None:
     """The option that lists what may be chosen on the page."""
     command.add_argument("--choices", type=drafting.choices_of, metavar="WHAT",
-                         help=f"what may be chosen on the page: {', '.join(drafting.CHOICES)}, some languages such as "
-                         "de,lv, or none; without it plans, and besides its own English, or where that is small all "
-                         "languages")
+                         help=f"what can be chosen on the page: {', '.join(drafting.CHOICES)}, some languages such as "
+                         "de,lv, or none; by default plans, and languages if the page stays small")
 
 
 def add_paper(command: argparse.ArgumentParser, text: str) -> None:
@@ -150,32 +150,31 @@ def add_paper(command: argparse.ArgumentParser, text: str) -> None:
     command.add_argument("--paper", choices=tuple(SIZES), help=text)
 
 
-def add_sheet(command: argparse.ArgumentParser, source: str = "scene") -> None:
-    """The options that say what the sheet looks like; without them the scene, or the task, has a say in it."""
-    add_paper(command, f"the sheet (the {source}'s, or the smallest that will do)")
+def add_sheet(command: argparse.ArgumentParser) -> None:
+    """The options that say what the sheet looks like; without them the scene has a say in it."""
+    add_paper(command, "the sheet (the scene's, or the smallest that will do)")
     add_language(command)
 
 
 def add_curves(command: argparse.ArgumentParser) -> None:
     """The options that name the curves of the motion."""
     add = command.add_argument
-    add("--curves", metavar="POINTS", help="the paths of these points over the motion, such as M,C, or of all")
-    add("--centrodes", metavar="LINKS", help='the fixed and the moving centrodes of these links, each with the link '
-        'that it moves on, such as "2 frame,2 3"')
+    add("--curves", metavar="POINTS", help="paths of points over the motion, such as M,C, or all")
+    add("--centrodes", metavar="LINKS", help='fixed and moving centrodes of links, each with its carrier, '
+        'such as "2 frame,2 3"')
 
 
 def add_pencil(command: argparse.ArgumentParser) -> None:
     """The option that sets the accuracy of the pencil."""
     command.add_argument("--pencil", metavar="SIZES",
-                         help="errors of the pencil, as standard deviations: such as point=0.1,edge=0.1,"
-                         "opening=0.1 in mm of paper and angle=0.05 in degrees (the defaults)")
+                         help="standard deviations of the pencil; the defaults are point=0.1,edge=0.1,"
+                         "opening=0.1 (mm of paper) and angle=0.05 (degrees)")
 
 
 def add_preference(command: argparse.ArgumentParser) -> None:
-    """The options by which a form is preferred."""
+    """The option by which a form is preferred."""
     command.add_argument("--prefer", default="", choices=PREFERENCES,
-                         help="weigh all forms: the fewest operations, the smallest pencil error, or both")
-    add_pencil(command)
+                         help="compare all methods: the fewest operations, the smallest pencil error, or both")
 
 
 # --- asked for -----------------------------------------------------------------------------------------------------
@@ -289,12 +288,12 @@ def read_task(options: argparse.Namespace, load: Callable[[str], Task], parse: C
 SCENE, JSON = (".toml",), (".json",)  # endings of what alone an option applies to
 
 
-def add_subject(command: argparse.ArgumentParser, source: str = "scene") -> None:
-    """The options of all subjects: their sheet, other values of the scene or task, and the steps in JSON."""
-    add_sheet(command, source)
+def add_subject(command: argparse.ArgumentParser) -> None:
+    """The options of all subjects: language, other values of the scene or task, and the steps in JSON."""
+    add_language(command)
     add_settings(command)
-    command.add_argument("--steps", action="store_true", help="in JSON the steps of the drawing too, to be executed on "
-                         "paper as those of `graphplan steps --json`")
+    command.add_argument("--steps", action="store_true", help="add the steps of the drawing to the JSON, as in "
+                         "`graphplan steps --json`")
 
 
 def run_subject(options: argparse.Namespace, name: str, endings: Sequence[str],

@@ -44,17 +44,17 @@ class WorkingDrawing(Construction):
 
     given_scene: Scene | None = None
 
-    def save(self, path: str | os.PathLike[str], *, until: str = "", steps: str = "", strip: str = "", by: str = "",
+    def save(self, path: str | os.PathLike[str], *, steps: str = "", strip: str = "", by: str = "",
              numbers: bool = False, dpi: int | None = None, **options: Unpack[Keywords]) -> None:
         """Write the sheet by the ending of its path (.svg, .pdf, .png, .dxf), byte for byte as `graphplan draw` does.
 
-        `until` a step, `steps` such as "6-12", a `strip` by "mark" or "step", `by` "stages", `numbers` and `dpi` are
-        the options of `draw`; further keywords say how it is drawn (plan="polar") and what the sheet looks like
+        `steps` such as "6-12", a `strip` by "mark" or "step", `by` "stages", `numbers` and `dpi` are the options of
+        `draw`; further keywords say how it is drawn (plan="polar") and what the sheet looks like
         (paper="A3", language="de"). Fails with `Refused` where it cannot be drawn or written so.
         """
         from graphplan.app.pages import SheetExcerpt, save_sheet
 
-        excerpt = SheetExcerpt(str(until), steps, strip, by, numbers, dpi)
+        excerpt = SheetExcerpt(steps, strip, by, numbers, dpi)
         save_sheet(with_sheet(self.given_scene or self.scene, options), os.fspath(path), excerpt)
 
     def evaluate(self, poses: PoseSeries | Mapping[str, Any] | None = None,  # type: ignore[override]

@@ -3,7 +3,7 @@
 examples:
   graphplan cost alt-eight-link
   graphplan cost scene.toml --pencil point=0.2,angle=0.1
-  graphplan cost scene.toml --hands 4000 --json
+  graphplan cost scene.toml --json
 """
 
 from __future__ import annotations
@@ -12,19 +12,13 @@ import argparse
 from functools import partial
 from itertools import product
 
-from graphplan.app.choices import Messages, add_paper, add_pencil, count, pencil
+from graphplan.app.choices import Messages, add_pencil, pencil
 from graphplan.app.files import as_json, write
 from graphplan.methods.panels import motion_plans
-
-BYTES_PER_HAND = 4096  # bytes for what one hand draws, as measured
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--json", action="store_true", help="as data, with every result's error and every crossing")
-    add_paper(command, "the sheet of all forms; without it each has one that plans and letters need")
-    command.add_argument("--hands", type=count("--hands", 2), default=0, metavar="N",
-                         help="let N noisy hands draw each form as well, and compare how their results scatter with "
-                         "the expected errors")
     add_pencil(command)
 
 
@@ -38,19 +32,17 @@ def run(options: argparse.Namespace) -> int:
         plans_alone,
         strict_constructions,
     )
-    from graphplan.cycle.travel import afford
     from graphplan.errors import Disagreement
     from graphplan.mechanism.scene import load
     from graphplan.methods.design import Design
 
-    afford("--hands", options.hands, "hands", BYTES_PER_HAND)
     scene, hand, messages = load(options.scene), pencil(options), Messages(options.quiet)
     comparisons, sheets = [], partial(plans_alone, motion=shown_motion(scene))
     drawn_on = {plan: constructions(scene, Design(plan)) for plan in motion_plans(scene)}
     for strict, (plan, drawn) in product((False, True), drawn_on.items()):
         messages.progress(f"{plan} plans{', strict' if strict else ''}")
-        alternatives = forms(strict_constructions(drawn) if strict else drawn, hand, paper=options.paper, sheets=sheets)
-        comparisons.append(Comparison(scene, plan, strict, tuple(alternatives), options.hands))
+        alternatives = forms(strict_constructions(drawn) if strict else drawn, hand, sheets=sheets)
+        comparisons.append(Comparison(scene, plan, strict, tuple(alternatives)))
     messages.progress("")
     refusals = [form.refusal for comparison in comparisons for form in comparison.forms]
     for refusal in refusals:
@@ -62,6 +54,6 @@ def run(options: argparse.Namespace) -> int:
         write(as_json(data))
     else:
         tables = [line for comparison in comparisons for line in comparison.lines()]
-        lines = [scene.title, f"Pencil, standard deviations: {hand.description}.", *tables, *legend(options.hands)]
+        lines = [scene.title, f"Pencil, standard deviations: {hand.description}.", *tables, *legend()]
         write("\n".join(lines) + "\n")
     return 0

@@ -1,12 +1,11 @@
-"""Follow the mechanism around its drive's turn: every pose constructed, checked, tabled and plotted.
+"""Follow the mechanism over a turn of its drive: every pose constructed, checked, tabulated and plotted.
 
-Poses are followed from the given one without a jump to another branch; those that cannot be reached or are
-singular stand on standard error and in the table, each with its place and reason. The table is comma-separated
-text, an archive of arrays (.npz), or JSON. Paths of points and centrodes of links are tabled too, and drawn with the
-mechanism alone. The plot shows displacement, velocity and acceleration, with graphical
-differentiation and integration compared with the plans; or whatever the table has as plain curves, polar diagrams of
-vectors, and families over values of the scene. An animation shows the mechanism with its construction in
-motion: a full turn, or there and back between limits.
+The mechanism stays on the assembly branch of the given pose. Poses that are singular or cannot be reached are reported
+on standard error and in the table, with travel and reason. The table is comma-separated text, an archive of arrays
+(.npz), or JSON; it has the paths of points and the centrodes, too, which --paths draws with the mechanism alone. --plot
+draws displacement, velocity and acceleration, with graphical differentiation and integration; or any column of the
+table as a plain curve, polar diagrams of vectors, and families over a value of the scene. --animate shows the mechanism
+with its construction in motion: over a full turn, or to and fro between limits.
 
 examples:
   graphplan cycle four-bar --positions 12
@@ -17,7 +16,7 @@ examples:
   graphplan cycle plough-lift --positions 50 --from 0 --to 80 -o lift.npz
   graphplan cycle four-bar --animate four-bar.gif
   graphplan cycle four-bar --positions 90 --curves M --centrodes "2 frame" --paths curves.svg -o curves.json
-  graphplan cycle plough-lift --animate lift.svg --positions 60 --seconds 10
+  graphplan cycle plough-lift --animate lift.svg --positions 60
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from graphplan.app.choices import Messages, add_choices, add_curves, count, error, load_scene, on_paper
+from graphplan.app.choices import Messages, add_curves, add_settings, count, error, load_scene, on_paper
 from graphplan.app.cycle_plot import Member, add_plot, check_plot, plot_file, plot_members
 from graphplan.app.drafting import translate_title
 from graphplan.app.files import STANDARD, kind, refuse_same_output, refuse_without_room, write
@@ -53,16 +52,15 @@ NOTHING_REACHED = 3
 def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("--positions", type=count("--positions", 1), metavar="N",
-        help=f"how many poses; without it an animation has {DEFAULT_POSES}")
+        help=f"the number of poses ({DEFAULT_POSES} in an animation)")
     add_span(add)
     add("-o", "--output", metavar="FILE", help=".csv, .npz or .json; else comma-separated text on standard output")
     add_curves(command)
-    add("--paths", metavar="FILE.svg", help="the mechanism with the paths and centrodes that are asked for")
+    add("--paths", metavar="FILE.svg", help="draw the mechanism with these paths and centrodes")
     add_plot(add)
     add_animation(add)
     add("--workers", default="1", metavar="N", help="processes that share the work, or a dask scheduler's address")
-    add("--compiled", action="store_true", help="machine code, if numba is installed: the same numbers, faster")
-    add_choices(command, method=False)
+    add_settings(command)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -288,33 +286,22 @@ def _reason(note: str) -> str:
 
 ANIMATION_ENDINGS = (".gif", ".svg")
 DEFAULT_POSES, MAX_POSES = 48, 240
-DEFAULT_SECONDS, MAX_SECONDS = 6, 120
-DEFAULT_WIDTH, MIN_WIDTH, MAX_WIDTH = 900, 200, 2400  # pixels
-MAX_PIXELS = 2e8  # pixels of all pictures of a .gif, were they square: about as many bytes of memory
+ROUND_SECONDS = 6  # until an animation begins again
+ANIMATION_WIDTH = 900  # pixels
 
 
 def add_animation(add: Callable[..., Any]) -> None:
     add("--animate", metavar="FILE.gif", help="the construction in motion: .gif, or an animated .svg")
-    add("--seconds", type=count("--seconds", 1, MAX_SECONDS), metavar="S",
-        help=f"how long an animation takes until it begins again ({DEFAULT_SECONDS})")
-    add("--width", type=count("--width", MIN_WIDTH, MAX_WIDTH), metavar="W",
-        help=f"how many pixels wide an animation is ({DEFAULT_WIDTH})")
 
 
 def check_animation(options: argparse.Namespace) -> None:
     """Refuse what an animation cannot be, before any work is done."""
-    ending = kind(options.animate, ANIMATION_ENDINGS, "animation", "--animate")
-    for name in ("seconds", "width"):
-        if getattr(options, name) and not options.animate:
-            raise Refused(f"--{name}", "only an animation uses it", "add --animate FILE.gif, or leave it out")
+    kind(options.animate, ANIMATION_ENDINGS, "animation", "--animate")
     if options.positions is None and (options.output or options.plot or not (options.animate or options.paths)):
         raise Refused("--positions", "the number of poses is missing", "such as --positions 36")
-    poses, width = options.positions or DEFAULT_POSES, options.width or DEFAULT_WIDTH
+    poses = options.positions or DEFAULT_POSES
     if options.animate and poses > MAX_POSES:
         raise Refused(f"--positions {poses}", "too many poses", f"at most {MAX_POSES}")
-    if ending == ".gif" and options.animate and poses * width**2 > MAX_PIXELS:
-        raise Refused(f"--animate {options.animate}", f"{poses} pictures of {width} pixels in width are too many",
-                      f"--width {int((MAX_PIXELS / poses) ** 0.5)}, fewer --positions, or an .svg")
 
 
 def animation(options: argparse.Namespace, span: tuple[float, float] | None = None) -> str | bytes:
@@ -324,12 +311,12 @@ def animation(options: argparse.Namespace, span: tuple[float, float] | None = No
 
     on_sheet, messages = on_paper(options, protocol="none"), Messages(options.quiet)  # there is no time to read it
     motion = loop(on_sheet.drawing.scene, options.positions or DEFAULT_POSES, span)
-    film = _film(on_sheet.drawing, on_sheet.composition, motion, options.seconds or DEFAULT_SECONDS, messages)
-    width = options.width or DEFAULT_WIDTH
-    return (svg if kind(options.animate, ANIMATION_ENDINGS, "animation") == ".svg" else gif)(film, width)
+    film = _film(on_sheet.drawing, on_sheet.composition, motion, messages)
+    write_out = svg if kind(options.animate, ANIMATION_ENDINGS, "animation") == ".svg" else gif
+    return write_out(film, ANIMATION_WIDTH)
 
 
-def _film(drawing: Construction, composition: Composition, moved: Loop, seconds: int, messages: Messages) -> Film:
+def _film(drawing: Construction, composition: Composition, moved: Loop, messages: Messages) -> Film:
     """The sheets of a loop, in its order; the mechanism alone in poses that cannot be drawn, which is reported."""
     from graphplan.accuracy.reach import constructions
     from graphplan.check.stream import points_where_sound
@@ -354,8 +341,8 @@ def _film(drawing: Construction, composition: Composition, moved: Loop, seconds:
         frames[k] = frame
         messages.progress(f"drawn: {len(frames)} of {len(reached)}" if len(frames) < len(reached) else "")
     if bare := sum(not drawn for _, drawn in frames.values()):
-        messages.remark(f"the mechanism alone, as nothing can be drawn there, in {bare} of {len(frames)} poses")
+        messages.remark(f"the mechanism alone, as no construction can be drawn there, in{bare} of {len(frames)} poses")
     poses, (each, name) = [k for k in moved.order if k in frames], travel_unit(drawing.scene)
     words = (arrange("{0}°" if name == "degrees" else "{0} {1}", digits(float(turn.travel[k]) / each), unit(name))
              for k in poses)
-    return Film([frames[k][0] for k in poses], [composition.plans.tongue(caption) for caption in words], seconds)
+    return Film([frames[k][0] for k in poses], [composition.plans.tongue(caption) for caption in words], ROUND_SECONDS)

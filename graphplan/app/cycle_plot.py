@@ -32,14 +32,14 @@ class Member(NamedTuple):
 
 
 def add_plot(add: Callable[..., Any]) -> None:
-    add("--plot", metavar="FILE", help="kinematic diagrams (.svg); of anything else that the table has its curve over "
-        "the travel (.svg, .pdf or .png)")
+    add("--plot", metavar="FILE", help="kinematic diagrams (.svg), or curves of other columns of the table over the "
+        "travel (.svg, .pdf or .png)")
     add("--of", action="append", default=[], metavar="NAME",
         help="what to plot: a link (its angle), a slide, or a point's coordinate such as B.x, up to four times, with "
-        "chords and tangents; or what the table has, such as 'reaction B', balance, efficiency, 'velocity A', A.vx, "
-        "'omega 3', 'frame at O.size', as plain curves")
-    add("--polar", action="store_true", help="polar diagrams of vectors: of a joint's force, or a hodograph")
-    add("--vary", metavar="PATH=VALUES", help="a family of curves, one for each value in the scene, such as "
+        "chords and tangents; or other columns as plain curves, such as 'reaction B', balance, efficiency, "
+        "'velocity A', A.vx, 'omega 3', 'frame at O.size'")
+    add("--polar", action="store_true", help="polar diagrams: of a joint's force, or a hodograph")
+    add("--vary", metavar="PATH=VALUES", help="a family of curves over a value of the scene, such as "
         "moments.0.value=1,2,4")
 
 

@@ -1,4 +1,4 @@
-"""Write handouts: the task for students, the steps as a guide, the solution; or a page that goes through the steps.
+"""Write handouts: the task for students, the guided construction, the solution; or a page that shows the steps.
 
 A PDF has the task sheet, its guided version and the solution, in true size and in the same frame, so that a drawing
 can be laid over the solution. A .html is the live page, for a browser without a network, with the steps in front: step
@@ -24,12 +24,12 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", metavar="FILE", required=True, help="the file to write: .pdf or .html")
     command.add_argument("--only", choices=PARTS, help="this part of a .pdf alone")
     add_sheet(command)
-    add_choices(command, method=False, strict=True)
+    add_choices(command, method=False)
     add_travel(command)
     add_offer(command)
 
 
 def run(options: argparse.Namespace) -> int:
     handout_ending(options.output, options.only)
-    save_handout(load_source(options, "plan", "strict", "at"), options.output, options.only, options.choices)
+    save_handout(load_source(options, "plan", "at"), options.output, options.only, options.choices)
     return 0

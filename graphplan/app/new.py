@@ -1,11 +1,11 @@
 """Write a scene to start from, with every section explained.
 
-It can be drawn as it stands; a file that is there is never overwritten.
+The scene can be drawn at once. An existing file is never overwritten.
 
 examples:
   graphplan new scene.toml                         a four-bar linkage
   graphplan new press.toml --kind slider-crank
-  graphplan new mine.toml --from shaper            a packaged scene as a file of one's own
+  graphplan new mine.toml --from shaper            a copy of a packaged scene
   graphplan new - --kind blank                     on standard output
 """
 

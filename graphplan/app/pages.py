@@ -32,11 +32,10 @@ STAGED = "stages"
 
 @dataclass(frozen=True)
 class SheetExcerpt:
-    """The part of a sheet that is drawn: as it stands after a step (`until`); `steps` such as 6-12 over what was drawn
-    before them; a `strip` of pictures, one a mark or one a step; `by` stages on pages of their own, or the sheet alone;
-    with the `numbers` of steps at all marks; a .png in `dpi`."""
+    """The part of a sheet that is drawn: `steps` such as 6-12 over earlier ones in grey; a `strip` of pictures, one a
+    mark or one a step; `by` stages on pages of their own, or the sheet alone; with the `numbers` of steps at all marks;
+    a .png in `dpi`."""
 
-    until: str = ""
     steps: str = ""
     strip: str = ""
     by: str = ""
@@ -99,17 +98,17 @@ def sheet_format(path: str | None, dpi: int | None = None) -> str:
 
 def _wants_stages(excerpt: SheetExcerpt, strict: bool) -> bool:
     """Whether stages are drawn: on request, and by default without set squares."""
-    return excerpt.by == STAGED or (strict and not (excerpt.by or excerpt.until or excerpt.steps))
+    return excerpt.by == STAGED or (strict and not (excerpt.by or excerpt.steps))
 
 
 def _requested_steps(sheet: Sheet, drawn: Program, excerpt: SheetExcerpt) -> Sheet:
     """The part of the sheet that is asked for."""
-    if not (excerpt.until or excerpt.steps):
+    if not excerpt.steps:
         return sheet
     from graphplan.sheet.layout.layout import sheet_at_step, step_range
 
-    first, last = step_range(drawn, excerpt.steps or excerpt.until)
-    return sheet_at_step(sheet, last, first if excerpt.steps else 0)
+    first, last = step_range(drawn, excerpt.steps)
+    return sheet_at_step(sheet, last, first if first > drawn.givens else 0)  # what is given is earlier than no step
 
 
 def handout(scene: Scene | FoundMechanism, path: str | os.PathLike[str], *, only: str | None = None,

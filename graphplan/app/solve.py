@@ -23,7 +23,7 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--digits", type=int, metavar="N",
                          help="N proven digits of every number, as decimal strings, and the bounds that prove them")
     command.add_argument("--bounds", action="store_true",
-                         help="a proven bound for every number, relative to itself and to what cancels in it")
+                         help="a proven error bound of every number, relative to it and to the terms that cancel in it")
     add_choices(command, inertia=True)
     add_travel(command)
     add_preference(command)

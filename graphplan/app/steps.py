@@ -1,10 +1,10 @@
-"""Print the construction in words, stage by stage, as it lies on the sheet that the same options draw.
+"""Print the construction in words, stage by stage, with lengths in mm of the sheet that the same options draw.
 
 examples:
   graphplan steps alt-eight-link
-  graphplan steps alt-eight-link --movements       with the single movements of what takes several
+  graphplan steps alt-eight-link --movements       with the single movements of compound steps
   graphplan steps scene.toml --strict
-  graphplan steps scene.toml --json --paper A3     with the place of every mark on that sheet
+  graphplan steps scene.toml --json --paper A3     with the position of every mark on that sheet
   graphplan steps scene.toml --prefer balanced
 """
 
@@ -13,7 +13,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from graphplan.app.choices import add_choices, add_preference, add_sheet, add_travel, on_paper
+from graphplan.app.choices import add_choices, add_pencil, add_preference, add_sheet, add_travel, on_paper
 from graphplan.app.files import as_json, write
 
 if TYPE_CHECKING:
@@ -21,12 +21,13 @@ if TYPE_CHECKING:
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--movements", action="store_true", help="below what takes several movements, each of them")
-    command.add_argument("--json", action="store_true", help="as data, with the place of every mark on the sheet")
+    command.add_argument("--movements", action="store_true", help="add the single movements of compound steps")
+    command.add_argument("--json", action="store_true", help="as data, with the position of every mark on the sheet")
     add_sheet(command)
     add_choices(command, strict=True, inertia=True)
     add_travel(command)
     add_preference(command)
+    add_pencil(command)
 
 
 def run(options: argparse.Namespace) -> int:

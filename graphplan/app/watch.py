@@ -1,7 +1,6 @@
-"""Draw a scene anew whenever its file is saved, until Ctrl-C.
+"""Redraw a scene whenever its file is saved, until Ctrl-C.
 
-Where the scene has faults they are listed, and the sheet stays as it was. An editor may save as it likes: over the
-file, or by another file in its place.
+If the scene has faults they are listed, and the sheet stays as it was. The editor may overwrite the file or replace it.
 
 examples:
   graphplan watch scene.toml                     scene.svg in the same folder
@@ -25,7 +24,7 @@ PERIOD = 0.3  # seconds between two looks at the file
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("scene", metavar="SCENE", help="a scene file")
-    command.add_argument("-o", "--output", metavar="SHEET.svg", help="the sheet, without it SCENE.svg; as draw has it")
+    command.add_argument("-o", "--output", metavar="FILE", help="the sheet, without it SCENE.svg; as draw has it")
     add_settings(command)
 
 

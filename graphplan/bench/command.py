@@ -12,7 +12,7 @@ examples:
   graphplan chart charts                                  all of them; this takes minutes
   graphplan chart growth charts                           NAME.svg and NAME.csv into the folder
   graphplan chart machine charts --scenes shaper triad    of these scenes alone, with all that takes long
-  graphplan chart machine charts --beside rivals.csv      with other programs, as tests/bench/trade_off.py measures them
+  graphplan chart machine charts --beside rivals.csv      with other programs, as tests/bench/run.py measures them
 """
 
 from __future__ import annotations
@@ -24,8 +24,9 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from graphplan.app.choices import Messages, add_pencil, pencil
+from graphplan.app.choices import Messages
 from graphplan.app.files import folder_at, write
+from graphplan.design.hand import Pencil
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load, packaged_names
@@ -66,7 +67,6 @@ def options(command: argparse.ArgumentParser) -> None:
                          "takes long")
     command.add_argument("--beside", metavar="FILE.csv", type=Path,
                          help="rows of machine that were measured elsewhere, beside LAPACK on the same scenes")
-    add_pencil(command)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -78,7 +78,7 @@ def run(options: argparse.Namespace) -> int:
             raise Refused(f"chart {name}", "unknown chart", f"choose one of {', '.join(CHARTS)}")
     folder_at(options.folder)
     beside = _rival_rows(options.beside, options.names or CHARTS) if options.beside else []
-    scenes, messages, hand = [load(name) for name in options.scenes], Messages(options.quiet), pencil(options)
+    scenes, messages, hand = [load(name) for name in options.scenes], Messages(options.quiet), Pencil()
     for name in options.names or CHARTS:
         module = import_module(f"graphplan.bench.{name}")
         rows = [*_rows(name, module, scenes, hand, messages)]

@@ -1,8 +1,8 @@
 """Draw a mechanism with the mouse, in a browser; its sheet, steps and results follow.
 
-The page is served on this computer alone, at an address with a secret token; nothing is fetched from elsewhere. The
-drawing is a scene: its text can be edited beside it, and comments stay. The file that is named is written when the page
-saves it, and is made where it is missing; a packaged scene, or a drawing of one's own, is downloaded. Ctrl-C ends it.
+The page is served on this computer alone, at an address with a secret token, and fetches no other files. The drawing is
+a scene, whose text can be edited, too; comments stay. Save writes the named file, also a new one; without a file, or
+for a packaged scene, the page offers a download. Ctrl-C ends the command.
 
 examples:
   graphplan board                        an empty board

@@ -52,13 +52,13 @@ DRAWN = (".svg", ".pdf", ".png", ".tex")  # the sheet
 def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("task", metavar="TASK", help="a task file, or - for standard input")
-    add("-o", "--output", metavar="SHEET.svg", help="the file to write: .svg, .pdf, .png or .tex, the sheet; .dxf, the "
+    add("-o", "--output", metavar="FILE", help="the file to write: .svg, .pdf, .png or .tex, the sheet; .dxf, the "
         "profile; .json, the numbers; .toml, a scene; without it SVG on standard output")
-    add("--at", type=float, metavar="DEGREES", help="the pose of the scene (0)")
-    add("--positions", type=count("--positions", 1), metavar="N", help=f"of the table in JSON ({POSITIONS})")
+    add("--at", type=float, metavar="TRAVEL", help="the pose of the scene, in degrees of the cam (0)")
+    add("--positions", type=count("--positions", 1), metavar="N", help=f"positions of the table in JSON ({POSITIONS})")
     add("--tolerance", type=float, metavar="LENGTH",
-        help=f"how far arcs may be off the profile, in the task's lengths ({TOLERANCE})")
-    add_subject(command, "task")
+        help=f"largest error of the profile's arcs, in the task's lengths ({TOLERANCE})")
+    add_subject(command)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -212,7 +212,7 @@ def _singular_links(scene: Scene) -> dict[str, str]:
         partial_scene = _scene_of_links(scene, [*regular_links, *team])
         try:
             if team and not bracing(partial_scene).sound:
-                dead |= dict.fromkeys(team, f"it hangs on what is singular: {_links_text(dead)}")
+                dead |= dict.fromkeys(team, f"it depends on a singular part: {_links_text(dead)}")
                 continue
             if team:
                 solve(partial_scene, exact=not scene.irrational)

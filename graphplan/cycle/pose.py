@@ -149,8 +149,8 @@ def _coupled_extreme(scene: Scene, asked: str, position: Extreme) -> tuple[Extre
 
 
 def _no_extreme_reason(one: Extreme) -> Said:
-    return said("the mechanism comes to no position in which {0} and {1} lie in one line so", f"{one.pivot}{one.pin}",
-                f"{one.pin}{one.joint}")
+    return said("the mechanism reaches no position in which {0} and {1} lie in one line in this way",
+                f"{one.pivot}{one.pin}", f"{one.pin}{one.joint}")
 
 
 def _travel_to_extreme(scene: Scene, position: Extreme) -> float | None:

@@ -68,7 +68,7 @@ def afford_poses(positions: int) -> None:
 def check_drives(scene: Scene) -> None:
     """Fail with :class:`Refused` if the scene has no drive, or gives a motion for one moment only."""
     if scene.motions or not scene.drives:
-        why = said("the motion of points is given, for this pose alone" if scene.motions else "nothing drives it")
+        why = said("the motion of points is given, for this pose alone" if scene.motions else "it has no drive")
         raise Refused("the cycle", why, "a scene with a [[drive]] for each degree of freedom")
 
 

@@ -369,5 +369,5 @@ def reachable_span(motion: RangeOfMotion, low: float = -math.inf, high: float = 
     low = max(low, least + spare if path.lower else least)
     high = min(high, most - spare if path.upper else most)
     if low >= high:
-        raise Refused("the cycle", said("the mechanism does not come there from the given pose"), "another range")
+        raise Refused("the cycle", said("the mechanism cannot reach it from the given pose"), "another range")
     return low, high

@@ -1,9 +1,8 @@
 """Export the construction: to GeoGebra and LaTeX step by step, as data, as code, or its sheet.
 
-In the step formats every mark depends on the marks that it was drawn from, so a joint can be dragged where the program
-lets one drag; the plans stand where they stand on the sheet. Code computes what the scene asks for in poses as they
-come, and needs nothing else; its first lines say what it reads and gives, and how it is compiled. The suffix of the
-output says which format, unless one is named.
+In the step formats every mark depends on the marks that it was drawn from, so that joints can be dragged; the plans
+stand as on the sheet. Code computes the results of the scene in any poses, without libraries; its first lines describe
+input, output and compilation. The suffix of the output chooses the format, unless one is named.
 """
 
 from __future__ import annotations
@@ -41,11 +40,11 @@ examples:
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", metavar="FILE", required=True, help="the file to write")
     command.add_argument("--format", choices=tuple(formats()),
-                         help="the format; without it the suffix of FILE says which")
-    command.add_argument("--bare", action="store_true", help="LaTeX: the picture alone, for \\input; "
-                         f"beside FILE stands {STYLE}, the style of all pictures")
-    command.add_argument("--width", type=_width, metavar="W", help="LaTeX: how wide the picture is, in mm, or up to 1 "
-                         "as a part of \\linewidth; plans and letters are placed for it (without it as on the sheet)")
+                         help="the format (by the suffix of FILE)")
+    command.add_argument("--bare", action="store_true", help="LaTeX: the picture alone, for \\input, with "
+                         f"{STYLE}, the style of all pictures, in the same folder")
+    command.add_argument("--width", type=_width, metavar="W", help="LaTeX: width of the picture in mm, or up to 1 as "
+                         "a part of \\linewidth; plans and letters are placed for it (as on the sheet)")
     add_sheet(command)
     add_choices(command, method=False)
 

@@ -140,7 +140,7 @@ class _GeoGebraWriter(Elements):
         for plate in self.given:
             self._mechanism(plate)
             self._caption(plate)
-        begun = said("The mechanism as it is given; nothing is drawn yet.")
+        begun = said("The given mechanism, before the first step.")
         changing = dict.fromkeys(step.quantity.written for step in self.plates.plans.drawing.drawn.steps
                                  if step.quantity and step.quantity.changing)
         remark = said("Loads that change over the cycle have the values of the given pose here: {0}.",

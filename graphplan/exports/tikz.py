@@ -32,8 +32,8 @@ from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 
 # mm: three times as much, as in P + (B - A), is still less than the longest dimension of TeX, 16383 pt
 MAX_COORDINATE_MM = 1900.0
-FAR_OUT = said("too far out for TeX's dimensions: what rests on it is given as it lies")
-AS_IT_LIES = said("given as it lies: it rests on what TeX cannot hold")
+FAR_OUT = said("beyond TeX's dimensions: marks that depend on it are given by coordinates")
+AS_IT_LIES = said("given by coordinates: it depends on a mark that TeX cannot hold")
 BACK = "plates", MOTION, "ground", "wheels", "links"  # layers behind the steps
 FRONT = "blocks", "drive", "pairs"  # layers over them
 LINE_MM = 121.0  # \\linewidth of LaTeX's own documents in 10 points: where it is wider, letters have more room

@@ -1,8 +1,8 @@
 """Make a scene of a linkage drawn in another program: GeoGebra, DXF, Linkage or PMKS+.
 
-What a file cannot tell, such as units, speeds, or which link drives, is guessed so that the scene moves. Each guess,
-and each item of the file that a scene cannot hold, is a remark and a comment in the scene. Coordinates are kept as the
-file has them. A file that graphplan exported gives back the scene that it was made of.
+Missing data, such as units, speeds, or the driving link, are guessed so that the scene moves. Each guess, and each item
+of the file that a scene cannot have, is a remark and a comment in the scene. Coordinates are those of the file. A file
+that graphplan exported gives back its scene.
 
 formats:
   .ggb         GeoGebra: segments and polygons are links; how points depend tells what moves
@@ -26,7 +26,7 @@ from graphplan.app.files import STANDARD, kind, refuse_same_output, write
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("file", metavar="FILE", help="a file of GeoGebra, Linkage or PMKS+, or a DXF")
-    command.add_argument("-o", "--output", metavar="SCENE", default=STANDARD,
+    command.add_argument("-o", "--output", metavar="FILE", default=STANDARD,
                          help="the scene to write, such as scene.toml; without it standard output")
 
 

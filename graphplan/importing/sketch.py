@@ -413,7 +413,7 @@ def _drop_loose_pieces(sketch: LinkageSketch) -> None:
         if len(points) > 1:
             named = " ".join(sketch.names[point] or "({0.real:g}, {0.imag:g})".format(sketch.places[point])
                              for point in points)
-            sketch.note(f"a link that hangs on no other was left out: {sketch.called[key] or named}")
+            sketch.note(f"a link without connection to others was left out: {sketch.called[key] or named}")
     sketch.guides = [guide for guide in sketch.guides if guide.link in largest and guide.along in largest]
     if FRAME not in largest:
         sketch.fixed = {}

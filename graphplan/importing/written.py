@@ -33,7 +33,7 @@ def scene(sketch: LinkageSketch, source: str) -> str:
     if sketch.masses and sketch.gravity:
         lines.append("gravity = [0, -9.81]")
     if lost := remarks(sketch):
-        lines += ["", "# What could not be told from the file:", *(comment(f"- {remark}") for remark in lost)]
+        lines += ["", "# Guessed, as the file does not have it:", *(comment(f"- {remark}") for remark in lost)]
     units = {"length": sketch.length, **sketch.units} if sketch.length else sketch.units
     if units:
         lines += ["", "[units]", *(f"{quantity} = {text(unit)}" for quantity, unit in units.items())]

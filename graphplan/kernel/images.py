@@ -477,7 +477,7 @@ def close_group(d: Any, joints: Sequence[Vector], group: Closure) -> list[Attitu
 
 
 def dot_all(row: Sequence[Any], left: Sequence[Any]) -> Any:
-    """The sum of the products of two rows."""
+    """The sum of the products of two rows, added in order: from Python 3.12 on `sum` rounds otherwise than arrays."""
     total = row[0] * left[0]
     for one, two in zip(row[1:], left[1:], strict=True):
         total = total + one * two
@@ -529,8 +529,7 @@ def cubic_point(d: Any, plans: Sequence[Any], u: Any) -> Vector:
         for other in NODES[:k] + NODES[k + 1:]:
             weight = weight * (u - d.lift(other)) / d.lift(node - other)
         weights.append(weight)
-    return (sum((w * P[0] for w, P in zip(weights, plans, strict=True)), d.lift(0)),
-            sum((w * P[1] for w, P in zip(weights, plans, strict=True)), d.lift(0)))
+    return dot_all(weights, [P[0] for P in plans]), dot_all(weights, [P[1] for P in plans])
 
 
 def cubic_direction(plans: Sequence[Any], u: float) -> Vector:

@@ -140,7 +140,7 @@ def pull_line(d: Any, P: Any, B: Any, p: Any, q: Any, /, *, coefficient: Any) ->
 def resultant(d: Any, C: Any, p: Any, q: Any, P: Any, R: Any, a: Any, b: Any) -> Any:
     """The point, perpendicular to the force pq from C, where pq alone does what it does at C with a pair of forces."""
     force = vector(p, q)
-    d.nonzero(vector_size(force), vector_size(p) + vector_size(q), "couple-alone", "the force is nothing")
+    d.nonzero(vector_size(force), vector_size(p) + vector_size(q), "couple-alone", "the force is zero")
     return _quarter_multiple(force, -cross(vector(P, R), vector(a, b)) / dot(force, force), C)
 
 

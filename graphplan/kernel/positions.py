@@ -177,7 +177,7 @@ def sight(d: Any, P: Any, Q: Any, /, *, dx: Any, dy: Any, ux: Any, uy: Any, way:
     """
     v, u, PQ = (d.lift(dx), d.lift(dy)), (d.lift(ux), d.lift(uy)), require_apart(d, P, Q)
     across, left = cross(u, v), dot(PQ, PQ) * dot(u, u)
-    along = d.sqrt(left - across * across, "circles-miss", "the guide passes further off than the points are apart")
+    along = d.sqrt(left - across * across, "circles-miss", "the guide's distance exceeds that of the points")
     t = along if way == "on" else -along
     dx, dy = t * PQ[0] + across * PQ[1], t * PQ[1] - across * PQ[0]
     d.nonzero(vector_size((dx, dy)), 0, "points-coincide", "the guide has no direction")

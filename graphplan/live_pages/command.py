@@ -1,8 +1,8 @@
-"""Write a live page: the construction in a browser, from one file, without a network; it moves, and all follows.
+"""Write a live page: the moving construction in a browser, in one file, without a network.
 
-Drag the drive or a point, type an angle, or let it run: the linkage follows on its branch, the construction is drawn
-anew, and the numbers in its sentences and tables are those of the pose. Where nothing can be moved the page
-goes through the steps alone.
+Drag the drive or a point, type an angle, or let it run: the linkage follows on its branch, the construction is redrawn,
+and the numbers in sentences and tables are those of the pose. If the mechanism cannot move, the page shows the steps
+alone.
 
 examples:
   graphplan live four-bar -o four-bar.html
@@ -21,7 +21,7 @@ from graphplan.live_pages.scene_page import live_page
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("-o", "--output", metavar="PAGE.html", required=True, help="the page to write")
+    command.add_argument("-o", "--output", metavar="FILE", required=True, help="the page to write")
     add_language(command)
     add_choices(command, method=False)
     add_offer(command)

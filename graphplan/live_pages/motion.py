@@ -168,9 +168,9 @@ def _linkage(scene: Scene) -> tuple[Data, list[str]]:
         "owned": dict(_points_by_link(linkage)), "guided": dict(_riding_guides(scene, moving)),
         "ways": list(_written_directions(scene)), "anchors": list(_anchors(linkage, groups)),
         "locked": said("the links move by their special geometry alone") if scene.redundant else "",
-        "held": {**{name: said("the gears and profiles of the frame hold point {0}", name)
+        "held": {**{name: said("point {0} belongs to gears or profiles of the frame", name)
                     for name in _distance_keeping_points(scene)},
-                 **{name: said("the fork holds point {0}", name) for name in _fork_pins(scene)}},
+                 **{name: said("point {0} belongs to the fork", name) for name in _fork_pins(scene)}},
     }, [_step(layout) for layout in layouts]  # fmt: skip
 
 

@@ -36,7 +36,7 @@ PAGE_WORDS: dict[str, Said] = {
     "all": said("Show all"), "play": said("Play"), "pause": said("Pause"), "step": said("Step"),
     "steps": said("Steps"), "sheet": said("Sheet"), "controls": said("Controls"), "zoom": said("Zoom to the plan"),
     "reads": said("reads"), "makes": said("makes"), "results": said("Results"),
-    "begin": said("The mechanism as it is given; nothing is drawn yet."),
+    "begin": said("The given mechanism, before the first step."),
     "old": said("This browser cannot unpack the page: it shows the given pose alone."),
     "pace": said("Speed of the motion"), "values": said("Values"), "more": said("More"),
     "further": said("Further scenes"),
@@ -62,7 +62,7 @@ PAGE_WORDS: dict[str, Said] = {
     "formless": said("In this pose the construction takes other forms than those that are drawn here."),
     "short": said("Too short to draw here: {0}", "%"),
     "singular": said("In this pose there are no results."),
-    "differs": said("Construction and second opinion differ in this pose."),
+    "differs": said("Construction and independent check differ in this pose."),
 }  # fmt: skip
 
 TASK_WORDS = PAGE_WORDS | {

@@ -83,7 +83,7 @@ def _with_wish(scene: Scene, amounts: Mapping[str, Fraction], closes: str | None
     from graphplan.mechanism.model import Flywheel
 
     if "inertia" in amounts and "unevenness" in amounts:
-        raise Refused("--inertia and --unevenness", "each follows from the other", "one of them")
+        raise Refused("inertia and unevenness", "each follows from the other", "one of them")
     if scene.flywheel is None and not ("speed" in amounts and len(amounts) > 1):
         return scene
     wish = scene.flywheel or Flywheel(amounts["speed"])
@@ -97,7 +97,7 @@ def _amount(name: str, amount: Amount) -> Fraction:
     number = amount if isinstance(amount, Fraction) else Fraction(repr(amount))
     limit = UNEVENNESS_LIMIT if name == "unevenness" else None
     if number < 0 or (number == 0 and name != "inertia") or (limit and number >= limit):
-        raise Refused(f"--{name} {amount}", "out of range", "more than 0 and less than 2" if limit else "more than 0")
+        raise Refused(f"{name} {amount}", "out of range", "more than 0 and less than 2" if limit else "more than 0")
     return number
 
 
@@ -138,14 +138,14 @@ def find_motion(driven: Scene, speed: float | None, travel: float | None, positi
 
     for name, value in (("speed", speed), ("travel", travel)):
         if value is not None and not math.isfinite(value):
-            raise Refused(f"--{name}", f"{value:g}", "give a number")
+            raise Refused(name, f"{value:g}", "give a number")
     positions = positions or POSITIONS
     scene = translate_title(driven)
     result = motion_of_scene(scene, speed, travel, steady)
     drawing = draw_motion(result.motion, min(positions, MAX_DRAWN))
     check, remarks = check_motion(result, drawing), list[str]()
     if (stop := result.motion.stop) is not None:
-        when = f"after {stop.time:.6g} s" if math.isfinite(stop.time) else "and nears it for ever"
+        when = f"after {stop.time:.6g} s" if math.isfinite(stop.time) else "which it approaches asymptotically"
         remarks.append(f"{scene.name}: the machine stops at {result.machine.travel_text(stop.travel)}, {when}")
     if result.reduction.friction is not None:
         remarks.append(f"{scene.name}: friction is taken as it is at the speed of the drive in the scene")
@@ -208,8 +208,8 @@ def balance_linkage(scene: Scene, positions: int | None = None, counterweights: 
     from graphplan.machines.linkages.sheet import balance_sheet, numbers, table
 
     if share is not None and (counterweights != "share" or not 0 <= share <= 1):
-        raise Refused(f"--share {share:g}", "not a fraction of the reciprocating mass", "give 0 to 1, with "
-                      "--counterweights share")
+        raise Refused(f"share={share:g}", "not a share of the reciprocating mass",
+                      "give 0 to 1, with counterweights share")
     result = cache(partial(balancing, scene, positions or BALANCED_POSITIONS, counterweights, keep, dict(radii or {}),
                            SHARE if share is None else share))
 

@@ -59,7 +59,7 @@ def other_pose(judgement: Judgement) -> str:
         return ""
     given_scene = scene.assembly.given_scene if scene.assembly else scene
     misfit_at = partial(_misfit_at, given_scene, spots)
-    with suppress(GraphplanError):  # nothing drives it, or its drive slides, so that no turn closes its travel
+    with suppress(GraphplanError):  # it has no drive, or its drive slides, so that no turn closes its travel
         best, step = _best_travel(given_scene, spots, None), 360 / COARSE_POSES
         if np.isnan(misfit_at(best)):  # where no full turn is made, it is reached backwards
             best -= 360

@@ -161,7 +161,7 @@ class _Report(HtmlPage):
         groups.append((said("in all, of 100"), self.score.judge_score))
         rows = [("", (HtmlCell(self.say(name)), HtmlCell(self.say(digits(round(percent))), FIGURE)))
                 for name, percent in groups]
-        yield from self.table(said("Score"), said("What was earned, of 100."), ("", said("Score")), rows)
+        yield from self.table(said("Score"), said("Score of 100."), ("", said("Score")), rows)
 
     # ---- steps -----------------------------------------------------------------------------------------------------
 
@@ -259,7 +259,7 @@ class _ClassList(HtmlPage):
     def _unread(self) -> Iterator[str]:
         if self.found.unread:
             rows = [("", (HtmlCell(escape(file.file)), HtmlCell(escape(file.why)))) for file in self.found.unread]
-            yield from self.table(NOT_JUDGED(), said("Files that could not be read, or show no such drawing."),
+            yield from self.table(NOT_JUDGED(), said("Files that cannot be read, or do not show this drawing."),
                                   (said("Drawing"), said("Reason")), rows)
 
 

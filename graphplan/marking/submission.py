@@ -66,7 +66,7 @@ def _read_pdf(path: Path, frames: Frames, size: SheetSize, code: int | None) -> 
 def _read_image(path: Path, frames: Frames, printed: Callable[[], Sheet] | None, code: int | None) -> Submission:
     """A scan or photo of the printed sheet."""
     if printed is None:
-        raise Refused(f"{path}", "a picture is read beside the sheet that was printed, and none is named",
+        raise Refused(f"{path}", "a picture can be read only with the printed sheet, and none is named",
                       "measured points or a CAD file")
     if not find_spec("cv2"):
         raise missing_package(f"{path}", "OpenCV", "scan")

@@ -139,7 +139,7 @@ def _hint(one: TrueNumber, expected: Sequence[TrueNumber], value: float) -> str:
             "counted clockwise") if is_near(one, -value) else ""
     power = next((power for power in UNIT_POWERS if is_near(one, value / power)), None)
     if power is not None:
-        return said("{0} times as large: a unit is mistaken", digits(power))
+        return said("{0} times as large: probably a wrong unit", digits(power))
     return said("negative") if is_near(one, -value) else ""
 
 

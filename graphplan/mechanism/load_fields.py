@@ -267,7 +267,7 @@ MASSES = Named(Table("a mass", (
     Field("centre", "its centre of mass, a point of that link", POINT, 'a point of the link, such as centre = "S"'),
 ), _mass), LINK, _check_mass)
 
-_LOADED = moving("a load on the frame moves nothing")
+_LOADED = moving("a load on the frame has no effect")
 _STILL: Pair = (Fraction(0), Fraction(0))
 
 
@@ -412,7 +412,7 @@ def _belt_friction(row: TableRow) -> None:
     wedge = None if groove is None else Wedge(groove, coefficient)
     reduced = coefficient if groove is None else coefficient / _half_sine(row, groove)
     if not reduced:
-        row.items["coefficient"].fault("a belt without friction passes on nothing", "a number above 0, such as 0.3")
+        row.items["coefficient"].fault("a belt without friction transmits no moment", "a number above 0, such as 0.3")
     elif all(centre in row.names.places for centre in belt.centres):
         row.names.irrational.append(f"{row.item.where}: the pull of the belt")
         friction = Friction("", None, Fraction(0), reduced, links, wedge)
@@ -430,8 +430,8 @@ def _screw(row: TableRow) -> Screw | None:
     screw = Screw(slide.links, row["lead"], row["radius"], reduced, wedge)
     if screw.slope * float(reduced) < 1:
         return screw
-    return row.items["lead"].fault("the lead angle and the friction angle are 90 degrees or more: nothing drives it",
-                                   "a lead that is small beside the radius")
+    return row.items["lead"].fault("the lead angle and the friction angle are 90 degrees or more: the screw cannot be "
+                                   "driven", "a lead that is small beside the radius")
 
 
 def _read_efficiency(item: SceneItem, names: SceneNames) -> Fraction | None:

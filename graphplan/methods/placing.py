@@ -174,10 +174,11 @@ class Placing:
     def _driven_mark(self, body: Body, link: str, at: Pair, name: str) -> Mark:
         """The first mark of a link that is driven from the frame: a crank laid off, or a slider moved along."""
         weld = self.net.welds[link]
-        law = (said("{0} lies at the angle that the drive gives its link, as far off as the link is long", name or link)
+        law = (said("{0} lies at the angle of its drive, at the length of its link", name or link)
                if weld.drive in self.scene.drives and weld.slide is None else
                said("{0} lies at the angle that the ratio of the gears gives its link", name or link)
-               if weld.slide is None else said("{0} has gone along its guide as far as its drive says", name or link))
+               if weld.slide is None else
+               said("{0} has moved along its guide by the travel of its drive", name or link))
         with self.board.on(MECHANISM, (link,), self._stage(law, (link,))):
             if weld.slide is None:
                 root = self._figure(body, weld.at)

@@ -118,7 +118,8 @@ def chapters() -> dict[str, str]:
 def titles() -> dict[str, Said]:
     """The titles of the tables' pages, by name."""
     keys = {f"{name}-keys": kind.keys for name, kind in leaves.tasks().items()}
-    return {"scene-keys": said("Keys of a scene"), **keys, "commands": said("Commands")}
+    return {"scene-keys": said("Keys of a scene"), **keys, "commands": said("Commands"),
+            "python": said("Python reference")}
 
 
 def tables(commands: Mapping[str, str]) -> dict[str, str]:
@@ -126,7 +127,7 @@ def tables(commands: Mapping[str, str]) -> dict[str, str]:
     rows = (f"| `graphplan {name}` | {summary} |" for name, summary in commands.items())
     keys = {f"{name}-keys": reference(leaves.module(kind.module).TASK) for name, kind in leaves.tasks().items()}
     listed = "\n".join(["| command | what it does |", "|---|---|", *rows, ""])
-    return {"scene-keys": reference(), **keys, "commands": listed}
+    return {"scene-keys": reference(), **keys, "commands": listed, "python": python_reference()}
 
 
 def table_pages(texts: Mapping[str, str], tongue: Tongue) -> dict[str, str]:
@@ -212,11 +213,8 @@ class ChapterPage(SitePage):
 
 
 HEAD = """\
-# Python reference
-
-What `import graphplan as gp` offers, from its docstrings; `python -m graphplan.site.chapters` writes this
-chapter. [Python](python.md) shows how it is used, [What is stable](stable.md) what stays as it is. Lengths, forces and
-masses are in the scene's units, angles and travels in degrees, rates in rad/s; vectors are complex numbers.
+The public names of `import graphplan as gp`, from their docstrings. Lengths, forces and masses are in the scene's
+units, angles and travels in degrees, rates in rad/s; vectors are complex numbers.
 """
 GROUPS = {
     "Scenes": "scene load parse at Scene WrittenScene",
@@ -229,7 +227,7 @@ GROUPS = {
 }
 
 
-def api_reference() -> str:
+def python_reference() -> str:
     """All public names in their groups, as Markdown; those of no group stand at the end."""
     grouped = " ".join(GROUPS.values()).split()
     groups = {**GROUPS, "More": " ".join(name for name in graphplan.__all__ if name not in grouped)}
@@ -290,9 +288,3 @@ def _text(thing: Any) -> str:
 def _markdown(text: str) -> str:
     """A docstring in Markdown: other names of graphplan as code."""
     return re.sub(r":(?:class|func|meth):`([^`]+)`", r"`\1`", text)
-
-
-if __name__ == "__main__":
-    from pathlib import Path
-
-    Path(__file__).with_name("chapters").joinpath("api.md").write_text(api_reference(), encoding="utf-8", newline="\n")

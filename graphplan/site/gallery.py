@@ -1,7 +1,7 @@
 """Make a site of scenes, offline: sheets, constructions in words, moving pages, files, a tutorial and the manual.
 
-Without scenes it has the packaged ones. With --brief it has no moving pages and no files for other programs: sheets,
-words, tutorial, manual and reference alone. Charts that stand in FOLDER/charts are shown. README.md, tutorial.md and
+Without scenes the site has all packaged ones. With --brief it has sheets, words, tutorial, manual and reference, but no
+moving pages and no files for other programs. Charts in FOLDER/charts are shown. README.md, tutorial.md and
 tables/ are for readers on a code host. The manual's chapters need markdown-it-py: pip install 'graphplan[manual]'.
 
 examples:

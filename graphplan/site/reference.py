@@ -63,15 +63,15 @@ def _keys() -> Table:
     rows = ((row.level, (_text(row.key) if row.level == FORM else _code(row.key), _text(row.takes), _text(row.words)))
             for row in keys())
     return said("Keys of a scene"), said("All tables and keys of a scene file."), (
-        said("Table or key"), said("Takes"), said("What it says")), rows
+        said("Table or key"), said("Takes"), said("Meaning")), rows
 
 
 def _pairs() -> Table:
     """Each kind of pair by what its file and its class say of it."""
     modules = {kind: import_module(f"{pairs.__name__}.{kind}") for kind in pairs.KINDS}
     rows = (("", (_code(kind), _text(_paragraph(module.__doc__)))) for kind, module in modules.items())
-    return said("Pairs"), said("What ties links to each other, or drives them."), (
-        said("Pair"), said("What it says")), rows
+    return said("Pairs"), said("Connections between links, and drives."), (
+        said("Pair"), said("Meaning")), rows
 
 
 def _paragraph(doc: str | None) -> str:
@@ -92,8 +92,9 @@ def _primitives(page: SitePage) -> Table:
     rows = (("", (_code(op.name), _text(page.tongue(_sample_sentence(op))), _text(page.tongue(HANDS[op.instrument]())),
                   _text("; ".join(further_lines(op)))))
             for op in TABLE.values())
-    return said("Primitives"), said("What can be drawn: every step of a construction is one of these."), (
-        said("Primitive"), said("As it is spoken"), said("Instrument"), said("More")), rows
+    summary = said("The operations of the drawing board: every step of a construction is one of these.")
+    return said("Primitives"), summary, (
+        said("Primitive"), said("Sentence"), said("Instrument"), said("More")), rows
 
 
 def _sample_sentence(op: Primitive) -> Said:
@@ -107,8 +108,8 @@ def _sample_sentence(op: Primitive) -> Said:
 def _failures(page: SitePage) -> Table:
     rows = (("", (_code(code), _text(page.tongue(why)), _text(page.tongue(remedy))))
             for code, (why, remedy) in FAILURES.items())
-    return said("Failures"), said("Why a step cannot be drawn in a pose, and what helps."), (
-        said("Failure"), said("What it says"), said("What helps")), rows
+    return said("Failures"), said("Reasons why a step cannot be drawn in a pose, with remedies."), (
+        said("Failure"), said("Meaning"), said("Remedy")), rows
 
 
 def _commands(commands: Mapping[str, str]) -> Table:
@@ -119,7 +120,7 @@ def _commands(commands: Mapping[str, str]) -> Table:
 def _mistakes(page: SitePage) -> Table:
     rows = (("", (_code(kind), _text(page.tongue(words())))) for kind, words in KINDS.items())
     return said("Mistakes"), said("The kinds of mistakes that `verify` tells, as `--weights` names them."), (
-        said("Mistake"), said("What it says")), rows
+        said("Mistake"), said("Meaning")), rows
 
 
 def _results(results: Mapping[str, Mapping[str, object] | Sequence[str]]) -> Table:
@@ -131,6 +132,5 @@ def _results(results: Mapping[str, Mapping[str, object] | Sequence[str]]) -> Tab
                 kind, _, words = str(told).partition(", ")
                 yield "", (_code(key), _text(kind), _text(words))
 
-    caption = said("What is printed as JSON, table by table; ? marks what may be left out, [] a list, {{}} a table by "
-                   "name.")
-    return said("Results"), caption, (said("Table or key"), said("Takes"), said("What it says")), rows()
+    caption = said("The JSON output, table by table; ? marks optional entries, [] a list, {{}} a table by name.")
+    return said("Results"), caption, (said("Table or key"), said("Takes"), said("Meaning")), rows()

@@ -138,8 +138,7 @@ AUDIENCES = (
            "balancing."),
     said("For authors: figures for LaTeX, CAD and GeoGebra, which move."),
 )
-CONSTRUCTED = said("What graphplan constructs of each scene: the sheet, the construction in words, and the page on "
-                     "which it moves.")
+CONSTRUCTED = said("The constructions of each scene: the sheet, the steps in words, and the page on which it moves.")
 CHARTS = said("Measured and followed round")
 MEASURED = said("Speed against accuracy (`graphplan chart`) and kinematic diagrams (`graphplan cycle`); times are "
                   "ratios within one run.")

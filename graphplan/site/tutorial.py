@@ -1,4 +1,4 @@
-"""The tutorial in six lessons, from a first plan to a machine over its cycle. Its commands are data, which a test runs.
+"""The tutorial in six lessons, from the board to a machine over its cycle. Its commands are data, which a test runs.
 """
 
 from __future__ import annotations
@@ -27,11 +27,15 @@ class Lesson(NamedTuple):
 
 
 TUTORIALS = {
-    said("A first plan in ten minutes"): (
+    said("A mechanism on the board"): (
         Lesson(said("Begin with the mouse: `graphplan board {0}` opens a page. Point puts down four points, Link joins "
                     "two at a time (Enter ends a link), Fixed pivot holds the first and the last, Drive turns the "
                     "first link, Ask wants a point's motion. Sheet, steps and numbers follow, and Save writes the "
                     "file.", FILE)),
+        Lesson(said("Select drags a point, and a click on an object shows its numbers; a length that is typed is kept. "
+                    "The tab Scene has the same mechanism as text: what is typed there is drawn.")),
+    ),
+    said("A first plan in ten minutes"): (
         Lesson(said("A scene is a mechanism in one pose: points with their coordinates, links as lists of points, a "
                     "drive, and what is asked for. Save this as `{0}`. A point that two links name is a revolute "
                     "joint of the two; `frame` is the fixed link.", FILE),
@@ -57,8 +61,6 @@ TUTORIALS = {
                "graphplan draw four-bar --plan polar -o polar.svg"),
         Lesson(said("The numbers say which way the vectors point: true velocities and accelerations, not turned."),
                "graphplan solve four-bar"),
-    ),
-    said("A slide with the acceleration of Coriolis"): (
         Lesson(said("The block 2 slides along link 3, which turns. Points that lie together have names of their own: A "
                     "on the block, A3 on the slotted link."), "graphplan new slotted.toml --from slotted-link"),
         Lesson(said("The sliding and the turning of the guide give the acceleration of Coriolis, 2·ω·v. It is one more "

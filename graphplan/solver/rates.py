@@ -273,7 +273,7 @@ def bound_by(equations: Equations, rows: frozenset[int]) -> tuple[str, ...]:
 def reason(scene: Scene, possible: bool, play: bool) -> str:
     """Why a pose is singular, in words: whether the prescribed motion is possible, and whether anything has play."""
     if not scene.drives and not scene.motions:
-        return "nothing drives the mechanism: these links can move freely"
+        return "the mechanism has no drive: these links can move freely"
     single = len(scene.drives) == 1 and not scene.motions
     input_motion = "the drive" if single else "the given motions" if scene.motions else "the drives"
     still, do_not = ("stands still", "does not") if single else ("stand still", "do not")

@@ -1,11 +1,11 @@
-"""Find a mechanism from what it is to do: guidance, function, stroke, path, dwell, Geneva wheel, profile, gears.
+"""Synthesize a mechanism: guidance, function, stroke, path, dwell, Geneva wheel, conjugate profile, gears.
 
-TASK is a TOML file with one of the tables guidance, function, stroke, cognates, dwell, geneva, conjugate and gear:
-`graphplan schema synthesize` prints its JSON Schema. All is drawn by ordered steps, compared with a second opinion, and
-each linkage followed through its positions; branch, circuit and order defects are told. The sheet shows the
-construction; a .toml is what was found as a scene for draw, solve, cycle and live; JSON has the numbers of all
-solutions. Of gears a .dxf has both wheels in true size. Where the construction does not exist the exit status is 3, and
-one line says why and what would do.
+TASK is a TOML file with one of the tables guidance, function, stroke, cognates, dwell, geneva, conjugate and gear;
+`graphplan schema synthesize` prints its JSON Schema. The construction is drawn in ordered steps and compared with an
+independent check; each linkage is followed through its positions, and branch, circuit and order defects are reported.
+A .toml is the mechanism as a scene for draw, solve, cycle and live; JSON has the numbers of all solutions; a .dxf of
+gears has both wheels in true size. If the construction does not exist the exit status is 3, with the reason and a
+remedy.
 
 examples:
   graphplan synthesize guidance-22-8 -o plane.svg   a packaged task, as `graphplan list tasks` has them
@@ -35,11 +35,11 @@ DRAWN = (".svg", ".pdf", ".png", ".tex", ".dxf")  # the sheet
 def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("task", metavar="TASK", help="a task file, a packaged task, or - for standard input")
-    add("-o", "--output", metavar="SHEET.svg", help="the file to write: .svg, .pdf, .png, .tex or .dxf, the sheet (a "
+    add("-o", "--output", metavar="FILE", help="the file to write: .svg, .pdf, .png, .tex or .dxf, the sheet (a "
         ".dxf of gears: the wheels); .json, the numbers; .toml, a scene; without it the numbers on standard output")
-    add("--solution", type=count("--solution", 1), metavar="N", help="which solution the sheet or the scene shows (1)")
+    add("--solution", type=count("--solution", 1), metavar="N", help="the solution on the sheet or in the scene (1)")
     add("--task", dest="unsolved", action="store_true", help="the sheet with what is given alone, and boxes to fill in")
-    add_subject(command, "task")
+    add_subject(command)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -132,8 +132,7 @@ class RockerSketch(InversionSketch):
         with sketch.stage(said("Positions"), self.positions_law):
             lines = [sketch.keep("output", sketch.ray(C, angle)) for angle in angles]
             A = self._pins(w)
-        law = said("all is turned back about C as the rocker has turned: it stands still, and A runs on a circle about "
-                   "B")
+        law = said("inversion about C: the rocker stands still, and A moves on a circle about B")
         with sketch.stage(said("Point B"), law):
             back = self.turn_back(C, lines, self.O, A, "A")
             self.draw_pin(back, turned, (lines[0], angles[0]), "AB", ("another crank or angle", "other angles or "
@@ -182,8 +181,7 @@ class SlideSketch(InversionSketch):
         farthest = max(zip(self.at, B, strict=True), key=lambda pair: abs(pair[0] - self.pivot))[1]
         with sketch.stage(said("Positions"), self.positions_law):
             sketch.keep("guide", sketch.board.guide(B[0], dx=self.guide.real, dy=self.guide.imag))
-        law = said("all is turned back about O as the crank has turned: it stands still, and B runs on a circle about "
-                   "A")
+        law = said("inversion about O: the crank stands still, and B moves on a circle about A")
         with sketch.stage(said("Point A"), law):
             back = self.turn_back(self.O, self.rays, farthest, B, "B")
             self.draw_pin(back, turned, (self.rays[0], request.input[0]), "BA", ("another place of the slide", "other "

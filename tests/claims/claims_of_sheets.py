@@ -193,9 +193,9 @@ def each_mark_may_bear_its_number(got: Got) -> None:
 
 @claim()
 def a_step_shows_what_is_drawn_by_then(got: Got) -> None:
-    """`--until` a step there is all that it and the steps before have drawn, and no result."""
+    """With `--steps 1-N` there is all that it and the steps before have drawn, and no result."""
     last = max(step["number"] for step in got.steps["steps"]) // 2
-    shown = got.sheets("--until", str(last))[0]
+    shown = got.sheets("--steps", f"1-{last}")[0]
     drawn, whole = ({key for key, _ in sheet.elements if key.isdigit()} for sheet in (shown, got.sheet))
     assert drawn == {key for key in whole if int(key) <= last}
     assert not {"found", "layer-results"} & {key for key, _ in shown.texts}

@@ -23,7 +23,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A class of three and a spare sheet."""
     place = tmp_path_factory.mktemp("school")
     (place / "names.csv").write_text(CLASS)
-    done = ran("variants", "four-bar", "--names", place / "names.csv", "--spare", "1", "--seed", "3", "-q", "-o",
+    done = ran("variants", "four-bar", "--names", place / "names.csv", "-n", "4", "--seed", "3", "-q", "-o",
                place / "class")
     assert done.status == 0, done.err
     return place / "class"
@@ -82,7 +82,7 @@ def test_the_key_is_right(folder: Path, tmp_path: Path) -> None:
 
 def test_the_same_seed_gives_the_same_bytes(folder: Path, tmp_path: Path) -> None:
     """The same seed gives the same files, in one process or two."""
-    words = "--names", folder.parent / "names.csv", "--spare", "1", "--seed", "3", "-q", "--jobs", "2"
+    words = "--names", folder.parent / "names.csv", "-n", "4", "--seed", "3", "-q", "--jobs", "2"
     assert ran("variants", "four-bar", *words, "-o", tmp_path / "again").status == 0
     assert {path.name: path.read_bytes() for path in (tmp_path / "again").iterdir()} == {
         path.name: path.read_bytes() for path in folder.iterdir()}

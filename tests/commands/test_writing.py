@@ -197,7 +197,7 @@ def test_files_that_are_written_are_told(tmp_path: Path) -> None:
     sheet = tmp_path / "deep" / "sheet.svg"
     words = ["draw", "slider-crank", "--paper", "A3"]
     told = ran(*words, "-o", sheet).err
-    assert sorted(told.splitlines()) == [f"{path}: written" for path in sorted(sheet.parent.iterdir())]
+    assert sorted(told.splitlines()) == [f"wrote {path}" for path in sorted(sheet.parent.iterdir())]
     for quiet in (["-o", sheet, "-q"], ["-o", os.devnull], []):
         assert ran(*words, *quiet).err == ""
 

@@ -1,4 +1,4 @@
-"""Errors of position: transformed mechanisms give what positions change by when a dimension does."""
+"""Position errors: transformed mechanisms give what positions change by when a dimension does."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ def animated(name: str, ending: str) -> bytes:
     """The animation of a packaged scene in a few poses."""
     with TemporaryDirectory() as folder:
         file = Path(folder, f"{name}{ending}")
-        assert ran("cycle", name, "-q", "--positions", str(POSES), "--seconds", "4", "--animate", file).status == 0
+        assert ran("cycle", name, "-q", "--positions", str(POSES), "--animate", file).status == 0
         return file.read_bytes()
 
 
@@ -81,10 +81,10 @@ def test_a_mechanism_with_limits_goes_there_and_back() -> None:
 
 @pytest.mark.costly
 def test_a_gif_has_a_picture_for_each_pose() -> None:
-    """A GIF opens with a picture for each pose, repeats without end, and takes the seconds it is given."""
+    """A GIF opens with a picture for each pose, repeats without end, and takes six seconds."""
     with Image.open(io.BytesIO(animated("four-bar", ".gif"))) as image:
         assert (image.n_frames, image.width, image.info["loop"]) == (POSES, 900, 0)
-        assert image.info["duration"] * image.n_frames == 4000
+        assert image.info["duration"] * image.n_frames == 6000
 
 
 def test_what_moves_is_shown_still_to_those_who_ask_for_it() -> None:

@@ -19,8 +19,9 @@ from inked_sheet import NS, InkedSheet, label, said
 
 YOKE = "flywheel", "ozols-13-6"
 SHEETS = (
-    YOKE, (*YOKE, "--by", "gutjahr"), (*YOKE, "--by", "areas"), (*YOKE, "--paper", "A1"), (*YOKE, "--paper", "A3"),
-    (*YOKE, "--by", "areas", "--paper", "A3"), ("motion", "ozols-13-7"), ("balance", "ozols-16-1"),
+    YOKE, (*YOKE, "--by", "gutjahr"), (*YOKE, "--by", "areas"), (*YOKE, "--set", "sheet.paper=A1"),
+    (*YOKE, "--set", "sheet.paper=A3"), (*YOKE, "--by", "areas", "--set", "sheet.paper=A3"),
+    ("motion", "ozols-13-7"), ("balance", "ozols-16-1"),
     ("synthesize", "guidance-22-8"), ("synthesize", "gear-21-1"),
 )
 PANELS = {"flywheel": ["mechanism", "lever", "levers", "flywheel"], "balance": ["mechanism", "shaking force", "cycle"]}

@@ -1,1 +1,1 @@
-"""Errors of position: by transformed mechanisms, from the tolerances of dimensions."""
+"""Position errors: by transformed mechanisms, from the tolerances of dimensions."""

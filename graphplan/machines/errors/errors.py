@@ -1,4 +1,4 @@
-"""Errors of position by transformed mechanisms: for each dimension a pair in its place, whose motion is the error.
+"""Position errors by transformed mechanisms: for each dimension a pair in its place, whose motion is the error.
 
 The drives are held. Instead of one dimension stands a pair that changes it: a slide along a distance or across a
 guide, a hinge at the vertex of an angle. What this mechanism moves with a unit of velocity is the coefficient of the
@@ -76,7 +76,7 @@ def dimensions(scene: Scene) -> list[NamedDimension]:
         raise Refused(scene.name, "no dimension has a tolerance", 'a table [tolerances] with dimensions, such as '
                       '"O A" = 0.05')
     if not scene.drives:
-        raise Refused(scene.name, "nothing is driven, so no position is held", "a scene with a [[drive]]")
+        raise Refused(scene.name, "without a drive no position is held", "a scene with a [[drive]]")
     return [dimension for dimension in every if dimension]
 
 

@@ -22,7 +22,7 @@ from graphplan.words.tongue import tongue
 if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
 
-DOCUMENT = said("Errors of position")
+DOCUMENT = said("Position errors")
 
 
 def error_sheets(errors: PositionErrors, pencil: Pencil) -> list[Sheet]:

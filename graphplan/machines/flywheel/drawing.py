@@ -179,14 +179,14 @@ class FlywheelRecorder:
         Z = board.lay_along(self.upright, O, length=float(mean), name="Z",
                             why=said("the mean ordinate: the areas over and under its level are equal"))
         H = board.lay_off(Z, dx=-self.scales.pole, dy=0, name="H", why=said("the pole"))
-        zero = board.parallel(self.level, Z, why=said("from this level the moments count, closed"))
+        zero = board.parallel(self.level, Z, why=said("zero line of the moments, closed"))
         self.rates = Axes(O, self.level, self.upright, H)
         self.marks |= {"mean": [Z], "ray origin": [H], "closed": [zero], "means": self.means}
 
     def _energy(self) -> None:
         """The string of chords."""
         board, down = self.board, self.frames["energy"].origin[1]
-        start = board.lay_off(self.rates.origin, dx=0, dy=down, name="E_0", why=said("the energy counts from here"))
+        start = board.lay_off(self.rates.origin, dx=0, dy=down, name="E_0", why=said("zero line of the energy"))
         rays = integrate(board, self.means, start, self.after, self.rates,
                          [f"E_{k}" for k in self.numbers[1:]])
         self.energies = [start, *(ray.end for ray in rays)]

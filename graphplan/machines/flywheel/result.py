@@ -41,7 +41,7 @@ from graphplan.mechanism.units import KILOGRAMS
 from graphplan.phrases import Said, digits, said
 
 Speeds = Callable[[float], float]  # the moment of a motor at a speed
-NEGLECTS_NOTHING = said("neglects nothing")
+NEGLECTS_NOTHING = said("no simplification")
 
 
 @dataclass(frozen=True)
@@ -194,8 +194,7 @@ def characteristic(cycle: SteadyCycle, unevenness: float, motor: Speeds) -> Meth
              for low, length in ((start, worked), (first + (end - first) % cycle.span, cycle.span - worked))]
     stored = max(map(abs, works))
     return MethodResult("characteristic", stored / energy_divisor(cycle, unevenness) - cycle.mean_inertia, stored,
-                        said("lets the motor's moment run straight between its two levels, and takes the mean of the "
-                             "inertia"),
+                        said("takes the motor's moment as linear between its two levels, and the mean of the inertia"),
                         {"moment_at_omega_max": levels[0], "moment_at_omega_min": levels[1], "work": (start, end)})
 
 
@@ -307,7 +306,7 @@ def flywheel(scene: Scene, positions: int | None = None, *, what: str = "flywhee
     wish = scene.flywheel
     if wish is None:
         raise Refused(what, "the unevenness is missing",
-                      "a table [flywheel] with speed and unevenness, or --speed and --unevenness")
+                      "a table [flywheel] with speed and unevenness")
     try:
         reduced = reduction(scene)
     except Refused as fault:

@@ -1,13 +1,13 @@
-"""The true motion of a machine: its speed over travel and time, from its reduced inertia and the loads of the scene.
+"""Find the true motion of a machine: its speed over travel and time, from its reduced inertia and its loads.
 
-Without [flywheel] and [run] it starts with the speed of the first drive (omega = 0: from rest) and goes one turn under
-the scene's loads alone; with [flywheel] it is the steady cycle, with the wheel and with what closes the cycle. Options
-say otherwise. Where the energy is used up the machine stops, and nothing is known beyond. Travel counts from 0 upwards
-in the sense in which the drive moves, in degrees (lengths of a drive that slides).
+The table [run] of the scene has the speed at the beginning (0: from rest; without it that of the first drive) and the
+travel (one turn without it). With a table [flywheel] and no [run] the motion is the steady cycle, with the flywheel and
+the moment that closes the cycle. The motion ends where the machine stops. Travel counts from 0 upwards in the sense in
+which the drive moves, in degrees (lengths of a drive that slides).
 
 examples:
   graphplan motion ozols-13-6 -o yoke.json                  the steady cycle with its flywheel
-  graphplan motion ozols-13-6 --speed 0 --travel 720        two turns from rest
+  graphplan motion ozols-13-6 --set run.speed=8 --set run.travel=720    two turns from 8 rad/s
   graphplan motion ozols-13-7 -o loader.svg                 its diagrams, drawn step by step
   graphplan motion scene.toml --steady --positions 72 -o cycle.csv
 """
@@ -26,13 +26,9 @@ def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("-o", "--output", metavar="FILE", help=".json, the numbers, or .csv, a table of them; "
         f"{', '.join(SHEETS)}, the sheet; without it JSON on standard output")
-    add("--speed", type=float, metavar="W0", help="the first drive's speed at the beginning, in rad/s (length/s); 0: "
-        "from rest; with --steady its mean")
-    add("--travel", type=float, metavar="DEGREES", help="how far the motion is followed, in degrees (lengths of a "
-        "drive that slides); without it one turn")
     add("--positions", type=count("--positions", 4, 7200), metavar="N",
-        help=f"in how many equal parts of the travel ({POSITIONS})")
-    add("--steady", action="store_true", help="the cycle that repeats itself")
+        help=f"number of equal parts of the travel ({POSITIONS})")
+    add("--steady", action="store_true", help="the steady cycle, which repeats itself; run.speed is its mean speed")
     add_subject(command)
 
 
@@ -44,4 +40,4 @@ def _motion(options: argparse.Namespace, ending: str, messages: Messages) -> Sub
     """The motion of the scene that is named."""
     scene = load_driven(options)
     messages.progress("motion")
-    return find_motion(scene, options.speed, options.travel, options.positions, options.steady)
+    return find_motion(scene, None, None, options.positions, options.steady)

@@ -349,7 +349,7 @@ class _MotionRecorder:
             *([(said("Speed"), said("omega² = 2 E/I"), self.lay_off_computed)] if self.lay.origin_off_paper else [
                 (said("Speed"), said("omega² = 2 k_E/k_I tan psi: the root is a mean proportional"), self._speed),
                 (said("Slowness"), said("1/omega by similar triangles"), self._slowness)]),
-            *([(said("First strips"), said("from rest 1/omega has no end"), self.draw_first_strips)] if self.first
+            *([(said("First strips"), said("from rest 1/omega is infinite"), self.draw_first_strips)] if self.first
               else []),
             (said("Mean slowness"), said("of each strip"), self._means),
             (said("Time"), said("its chords have the slope of the mean 1/omega of each strip"), self._time)]

@@ -405,7 +405,7 @@ def require_within_span(machine: DrivenMachine, start: float, end: float) -> Non
         raise Refused("the motion",
                       f"it would go from {machine.travel_text(start)} to {machine.travel_text(end)}, and is known from "
                       f"{machine.travel_text(machine.begin)} to {machine.travel_text(last)}",
-                      "a travel within (--travel)")
+                      "a shorter travel")
 
 
 def require_start(machine: DrivenMachine, start: float) -> None:
@@ -415,7 +415,7 @@ def require_start(machine: DrivenMachine, start: float) -> None:
     if not moment > MOMENT_TOL * max(size, abs(machine.closing)):
         why = "holds it" if moment < 0 else "is nothing"
         raise Refused("the motion", f"it does not start: the reduced moment at rest, {moment:.6g}, {why}",
-                      "a speed at the beginning (--speed), or loads that drive it there")
+                      "a speed at the beginning (run.speed), or loads that drive it there")
 
 
 def start_value(terms: Reals) -> float:
@@ -512,7 +512,7 @@ def steady_motion(machine: DrivenMachine, speed: float) -> TrueMotion:
         raise Refused("the steady motion", "the mechanism does not return to its pose after a turn",
                       "a first drive that makes full turns")
     if not speed > 0:
-        raise Refused("the steady motion", "the speed is missing", "--speed, or the omega of the first [[drive]]")
+        raise Refused("the steady motion", "the speed is missing", "run.speed, or omega of the first [[drive]]")
     if machine.laws:
         return limit_cycle(machine, nominal_speed(machine, speed))
     over, size = (float(work[0]) for work in work_over_cycle(machine, np.array([speed])))
@@ -631,7 +631,7 @@ def motion_of_scene(scene: Scene, speed: float | None = None, travel: float | No
                              nominal_speed(machine, motion.means.planimetric) if machine.laws else None)
     first = own_rate if speed is None else speed
     if first < 0:
-        raise Refused("--speed", f"{first:g} is below 0", "a speed in the sense in which the drive moves, or 0")
+        raise Refused("run.speed", f"{first:g} is below 0", "a speed in the sense in which the drive moves, or 0")
     stops = run is not None and run.stops
     end = end_of_travel(machine, travel, stops)
     motion = move(machine, first * machine.pace, machine.begin, end)
@@ -652,12 +652,12 @@ def reduction_of_motion(scene: Scene, travel: float | None) -> Reduction:
     """The masses and loads of the scene: over a whole cycle where there is one and the travel is a turn or more, or not
     said, or where a flywheel is asked for; else over the travel."""
     if travel is not None and travel <= 0:
-        raise Refused("--travel", f"{travel:g} is not greater than 0", "give degrees (lengths of a sliding drive)")
+        raise Refused("run.travel", f"{travel:g} is not greater than 0", "give degrees (lengths of a sliding drive)")
     if travel is not None and travel > MAX_TURNS * TURN_DEGREES and not (scene.drives and scene.drives[0].slides):
-        raise Refused("--travel", f"{travel:g} degrees are more than {MAX_TURNS} turns",
+        raise Refused("run.travel", f"{travel:g} degrees are more than {MAX_TURNS} turns",
                       "a shorter travel, or --steady")
     if scene.drives and scene.drives[0].slides and travel is None:
-        raise Refused("the motion", "the first drive slides, and the travel is missing", "--travel, or travel in [run]")
+        raise Refused("the motion", "the first drive slides, and the travel is missing", "travel in [run]")
     whole = scene.flywheel is not None or travel is None or travel >= TURN_DEGREES
     if scene.drives and not scene.drives[0].slides and whole:
         try:

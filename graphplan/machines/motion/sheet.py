@@ -156,7 +156,7 @@ def motion_sheet(paper: str, run: MachineMotion, strips: int) -> PanelSheet:
     size = PanelSize(rect.width - RIGHT, rect.height - OVER - FOOT - HEADED)
     if (drawing := draw_motion(run.motion, strips, size)) is None:
         raise Refused("the sheet", "the machine stops within the first strips",
-                      "a shorter travel (--travel), or more strips (--positions)")
+                      "a shorter travel (run.travel), or more strips (--positions)")
     return PanelSheet(
         page, said("Motion sheet"), said("The true motion of a machine in {0} strips.", strips), drawing.values,
         said("as stated"), {MOTION: diagrams_figure(run, drawing, page)}, given=[*given_words(run)],
@@ -239,7 +239,7 @@ def result_words(run: MachineMotion, drawing: MotionDrawing) -> Iterator[Words]:
     if motion.stop is not None:
         at, known = travel_words(motion.stop.travel), math.isfinite(motion.stop.time)
         yield (said("It stops at {0}, after {1} s", at, digits(motion.stop.time)) if known
-               else said("It comes to rest at {0}, for ever nearing it", at))
+               else said("It approaches rest at {0} asymptotically", at))
     for words, place in zip((said("Least speed"), said("Largest speed")), motion.extremes, strict=True):
         yield said("{0}: {1} {2} at {3}", words, digits(place.omega / machine.pace), rate, travel_words(place.travel))
     if run.nominal is not None:
@@ -247,7 +247,7 @@ def result_words(run: MachineMotion, drawing: MotionDrawing) -> Iterator[Words]:
     if run.run_up is not None:
         yield said("Run up in {0} turns, {1} s", digits(run.run_up.turns), digits(run.run_up.place.time))
     errors = drawing.errors
-    yield said("The drawing is off by {0} % in the speed, {1} % in the time",
+    yield said("Error of the drawing: {0} % in speed, {1} % in time",
                *(digits(round(100 * errors[what], 4)) for what in ("omega", "time")))
     true = motion.state_at(drawing.travel)
     rows = {"travel": drawing.travel / machine.degree, "omega": true.omega / machine.pace,

@@ -285,7 +285,7 @@ class PolygonRecorder:
         """A correction mass on a radius, or opposite."""
         letter, given_radius = PLANES[index], self.rotor.radii[index]
         name = f"P_{letter}{prime}"
-        why = why or ("" if given_radius else said("its radius is free"))
+        why = why or ("" if given_radius else said("its radius may be chosen"))
         length = way * (given_radius or self.free)
         self._keep(name, self.board.lay_along(ray, self.marks["O"], length=length, name=name, why=why,
                                               quantity=Quantity(f"r_{letter}", "length")))

@@ -1,6 +1,6 @@
 """The tasks of a class: to each student other numbers, a booklet to print, the key, and the register of who has which.
 
-The register stands in `class.json` beside the scenes of the tasks. What it says of how they are drawn is by the names
+The register stands in `class.json` beside the scenes of the tasks. How they are drawn is said by the names
 of the command line, so that each sheet can be composed again as it was printed.
 """
 
@@ -227,15 +227,13 @@ def ignore(line: str) -> None:
 
 @dataclass(frozen=True)
 class ClassRequest:
-    """A class: how many tasks (or the CSV of its `names`), by which `seed` their numbers are drawn, how many `spare`
-    tasks have no name, how many processes work, and the `keys` of [sheet] beside the scene; `remark` is told what is
-    worth knowing, `progress` how far it is.
-    """
+    """A class: how many tasks, or the CSV of its `names` (more tasks than names are spare ones); by which `seed` their
+    numbers are drawn; how many processes work; the `keys` of [sheet] beside the scene; listeners for a `remark` and for
+    `progress`."""
 
     count: int | None = None
     names: str | None = None
     seed: int = 1
-    spare: int = 0
     jobs: int | None = None
     keys: Mapping[str, Any] = field(default_factory=dict)
     remark: Listener = ignore
@@ -302,7 +300,7 @@ def _students(request: ClassRequest) -> list[tuple[str, str]]:
     if count_wanted < len(students):
         raise Refused(f"-n {count_wanted}", f"there are {len(students)} names in {class_file}",
                       f"-n {len(students)}, or no -n")
-    return [*students, *[("", "")] * (count_wanted - len(students) + request.spare)]
+    return [*students, *[("", "")] * (count_wanted - len(students))]
 
 
 def _files(class_work: ClassWork, request: ClassRequest, variants: Sequence[ClassVariant],

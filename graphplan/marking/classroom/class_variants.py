@@ -18,17 +18,17 @@ if TYPE_CHECKING:
 
 
 def variants(scene: Scene | FoundMechanism, folder: str | os.PathLike[str], n: int | None = None, *,
-             names: str | os.PathLike[str] | None = None, seed: int = 1, spare: int = 0, jobs: int | None = None,
+             names: str | os.PathLike[str] | None = None, seed: int = 1, jobs: int | None = None,
              **options: Unpack[Keywords]) -> None:
     """Make the tasks of a class in a new folder, as `graphplan variants` does.
 
     Reads a scene with a table [vary], or what `synthesize` finds for a task with one, how many tasks (or the CSV of the
-    students' `names`), by which `seed` numbers are drawn, how many `spare` tasks have no name, and how many processes
+    students' `names`; more tasks than names are spare ones), by which `seed` numbers are drawn, and how many processes
     work; further keywords say how it is drawn and what the sheets look like. The folder gets a scene or task for each
     variant, booklet.pdf, key.pdf, key.csv and class.json.
     Fails with `Refused` where nothing varies, or the folder is there and not empty.
     """
-    request = ClassRequest(n, None if names is None else os.fspath(names), seed, spare, jobs, {**options})
+    request = ClassRequest(n, None if names is None else os.fspath(names), seed, jobs, {**options})
     write_variants(scene, os.fspath(folder), request)
 
 

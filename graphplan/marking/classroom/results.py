@@ -179,7 +179,7 @@ class Classroom:
     def findings(self) -> Iterator[Said]:
         """Yield the remarks on the class."""
         faultless = sum(drawing.faultless for drawing in self.marked)
-        yield said("Drawings: {0}, of which {1} have no wrong step.", len(self.marked), faultless)
+        yield said("Drawings: {0}; without a wrong step: {1}.", len(self.marked), faultless)
         yield from _mean_and_mistake(self.mean, self.mistakes)
         yield from _look_first([drawing.file for drawing in self.in_order_of_doubt
                                 if certainty(drawing) < measures.SETTLED_CHANCE])
@@ -344,7 +344,7 @@ class StackResults:
 
     def findings(self) -> Iterator[Said]:
         """Yield the remarks on the class."""
-        yield said("Sheets judged: {0}, of which {1} have no wrong step.", len(self.with_status(JUDGED)),
+        yield said("Sheets judged: {0}; without a wrong step: {1}.", len(self.with_status(JUDGED)),
                    sum(sheet.faultless for sheet in self.with_status(JUDGED)))
         yield from _mean_and_mistake(self.mean, {kind: len(sheets) for kind, sheets in self.mistakes.items()})
         yield from _look_first([sheet.student or sheet.page for sheet in self.doubtful])

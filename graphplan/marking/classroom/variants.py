@@ -106,7 +106,7 @@ class Quality:
             return Flaw("steps are outside the paper", f"step {self.outside[0]} is outside the paper")
         if self.error > max(measures.MAX_ERROR_SHARE, measures.MAX_WORSE_RATIO * own.error):
             off = f"by {100 * self.error:.0f} %" if math.isfinite(self.error) else "without bound"
-            return Flaw("a careful hand draws it too far off", f"a careful hand is off {off} in {self.worst}")
+            return Flaw("its expected drawing error is too large", f"a careful hand is off {off} in {self.worst}")
         most_poor = max(measures.MAX_POOR_SHARE, measures.MAX_WORSE_RATIO * own.poor)
         if (own.legible and not self.legible) or self.poor > most_poor:
             return Flaw("the sheet is crowded", f"the sheet is crowded, {100 * self.poor:.0f} % of its letters have no "

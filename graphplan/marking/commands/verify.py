@@ -1,13 +1,13 @@
-"""Verify a drawing made by hand: the first wrong step, by how much it is off, and what a pencil allows.
+"""Verify a drawing made by hand: the first wrong step, its error, and the tolerance of a pencil.
 
-DRAWING has measured points or results (.csv, .toml), is of a CAD or geometry program (.svg, .dxf, .ggb), a scan or a
-photo (.png, .jpg, .pdf), or a folder of them. Say --plan, --method, --paper and --at as for the handout that was drawn
-on; an .svg, .dxf or .ggb that graphplan drew says so itself.
+DRAWING is a table of measured points or results (.csv, .toml), a file of a CAD or geometry program (.svg, .dxf, .ggb),
+a scan or a photo (.png, .jpg, .pdf), or a folder of these. Give --plan, --method, --paper and --at as for the handout;
+an .svg, .dxf or .ggb that graphplan drew needs none of them.
 
-verify FOLDER STACK judges a stack of scans, a PDF or a folder of them, each sheet by the scene that the code in its
-corners names, and writes results and each student's corrected sheet; running it again judges only what is new. verify
-FOLDER TABLE.csv judges a table of the class with a column student or variant, or a folder of tables that are called
-after students or variants.
+verify FOLDER STACK judges a stack of scans, a PDF or a folder, each sheet by the scene that the code in its corners
+names, and writes results and each student's corrected sheet; a second run judges only new sheets. verify FOLDER
+TABLE.csv judges a table of the class with a column student or variant, or a folder of tables that are named after
+students or variants.
 
 Measured points are a table with a line for each mark, in mm on the student's sheet; panel, x2 and y2 of a line, r of a
 circle and precision may be left out:
@@ -63,25 +63,24 @@ MAX_JOBS = 256
 
 def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
-    add("drawing", metavar="DRAWING", nargs="?", help="the file that was handed in, or a folder of them; of a class "
-        "with --words or --review it may be left out: what was handed in last")
+    add("drawing", metavar="DRAWING", nargs="?", help="the submitted file, or a folder of them; of a class with "
+        "--words or --review by default the last submission")
     add("--report", metavar="FILE",
         help="the report: .html, .json, of one drawing .svg or .pdf; of a class a grade book, .csv or .xlsx")
-    add("--weights", default="", metavar="WEIGHTS", help="what a step earns by its verdict (right=1), how "
-        "many steps a result counts (numbers=2), a first mistake of a kind costs (reversed=30); an unknown name "
+    add("--weights", default="", metavar="WEIGHTS", help="points of a step by its verdict (right=1), steps "
+        "that a result counts for (numbers=2), cost of the first mistake of a kind (reversed=30); an unknown name "
         "lists all")
     add("--json", action="store_true", help="as data")
     add("-o", "--output", metavar="FOLDER", help="where a stack's results are written (FOLDER/results)")
-    add("--assign", action="append", metavar="PAGE=STUDENT", help="whose a page of a stack is that bears no code; - "
-        "sets it aside; or a table of page and student, or variant")
-    add("--score", action="append", metavar="[NAME=]SCORE", help="the teacher's own score of 100, of a student "
-        "or a file in a folder; kept with the results of a class, and printed on them; - takes it back")
-    add("--note", action="append", metavar="[NAME=]TEXT", help="the same with a note")
-    add("--review", metavar="PAGE.html", help="of a class: a page on which the teacher looks at each sheet, with what "
-        "was read laid over it, and accepts or overrules verdicts by mouse and keys")
-    add("--words", metavar="FILE", help="of a class: the decisions that were saved from that page; kept with the "
-        "results")
-    add("--jobs", type=count("--jobs", 1, MAX_JOBS), metavar="N", help="so many sheets of a stack at once (all cores)")
+    add("--assign", action="append", metavar="PAGE=STUDENT", help="the student of a page without a code; - sets "
+        "the page aside; or a table of page and student, or variant")
+    add("--score", action="append", metavar="[NAME=]SCORE", help="the teacher's own score of 100, for a student "
+        "or a file in a folder; kept with the results of a class, and printed on them; - removes it")
+    add("--note", action="append", metavar="[NAME=]TEXT", help="the teacher's note, likewise")
+    add("--review", metavar="PAGE.html", help="of a class: a page on which the teacher accepts or overrules the "
+        "verdicts on each sheet, with the recognized marks laid over it")
+    add("--words", metavar="FILE", help="of a class: the decisions saved from that page; kept with the results")
+    add("--jobs", type=count("--jobs", 1, MAX_JOBS), metavar="N", help="number of processes (all cores)")
     add_sheet(command)
     add_choices(command)
     add_travel(command)

@@ -60,7 +60,7 @@ WEIGHT_NAMES = "right", "follows", "missing", "wrong", "numbers"
 def parse_weights(text: str) -> Weights:
     """The weights that a text such as `follows=0.5,numbers=3,reversed=30` speaks of; what it leaves out stays as it is
     by default."""
-    settings = read_settings("--weights", text, [*WEIGHT_NAMES, *KINDS], "nothing of this name is weighed",
+    settings = read_settings("--weights", text, [*WEIGHT_NAMES, *KINDS], "unknown name",
                              _parse_weight)
     right, follows, missing, wrong, numbers = (settings.get(name, float(getattr(Weights, name)))
                                                for name in WEIGHT_NAMES)

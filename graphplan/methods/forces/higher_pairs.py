@@ -60,7 +60,7 @@ def refuse_couples(scene: Scene) -> None:
     """Fail with `Refused` if the force of a belt is a couple alone."""
     for gear in scene.gears:
         if gear.direction is None and not sum(gear.factors):
-            why = said("the belt over wheels of one size bears nothing but a couple")
+            why = said("a belt over wheels of equal size transmits a couple alone")
             raise Refused("force plans", why, "ask for the lever, with --plan lever")
 
 

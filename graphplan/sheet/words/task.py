@@ -282,7 +282,7 @@ def _coefficients(friction: Friction) -> Iterator[Said]:
     wedge = friction.wedge
     yield arrange("mu = {0}", given_number((wedge or friction).coefficient))
     if wedge:
-        yield said("a V of {0}°", given_number(wedge.degrees))
+        yield said("a V-groove of {0}°", given_number(wedge.degrees))
         yield arrange("mu' = {0}", reduced_coefficient(wedge, friction))
 
 

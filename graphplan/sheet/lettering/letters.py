@@ -121,11 +121,11 @@ class PlacedLetters:
 
     @cached_property
     def _final_choice(self) -> tuple[Prices, Array]:
-        """Prices of the places and the chosen ones, after illegible letters were placed again."""
+        """Prices of the places and the chosen ones, after illegible and far letters were placed again."""
         prices, choice = self.prices.away_from(self.taken), self.choice
-        if self.rect and (faulty := sorted(Relabelling(prices, choice).faulty)):
-            more = candidates([self.wishes[letter] for letter in faulty], self.rect, FINE_RINGS,
-                              FINE_DIRECTIONS).for_letters(faulty)
+        if self.rect and (misplaced := sorted(Relabelling(prices, choice).misplaced)):
+            more = candidates([self.wishes[letter] for letter in misplaced], self.rect, FINE_RINGS,
+                              FINE_DIRECTIONS).for_letters(misplaced)
             prices, new_index = prices.with_more_places(more[~more.meeting(self.taken)])
             choice = Relabelling(prices, new_index[choice]).relabel(makes_room=not self.in_haste)
         return prices, choice

@@ -52,10 +52,10 @@ class WorkingDrawing(Construction):
         `draw`; further keywords say how it is drawn (plan="polar") and what the sheet looks like
         (paper="A3", language="de"). Fails with `Refused` where it cannot be drawn or written so.
         """
-        from graphplan.app.pages import SheetExcerpt, save_sheet
+        from graphplan.app.pages import save_sheet
 
-        excerpt = SheetExcerpt(steps, strip, by, numbers, dpi)
-        save_sheet(with_sheet(self.given_scene or self.scene, options), os.fspath(path), excerpt)
+        save_sheet(with_sheet(self.given_scene or self.scene, options), os.fspath(path), steps=steps, strip=strip,
+                   by=by, numbers=numbers, dpi=dpi)
 
     def evaluate(self, poses: PoseSeries | Mapping[str, Any] | None = None,  # type: ignore[override]
                  guides: Mapping[str, Any] | None = None, *, points: Mapping[str, Any] | None = None,
@@ -106,10 +106,9 @@ class WorkingDrawing(Construction):
 
     def _repr_svg_(self) -> str:
         """The sheet of a construction, drawn when a notebook asks."""
-        from graphplan.app.pages import SheetExcerpt, sheet_files
+        from graphplan.sheet import svg
 
-        sheet = sheet_files(self.given_scene or self.scene, None, "svg", SheetExcerpt())
-        return str(sheet.contents[0][1])
+        return svg(self)
 
 
 def construct(scene: Scene, *, checked: bool = True, **options: Unpack[Keywords]) -> WorkingDrawing:

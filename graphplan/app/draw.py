@@ -29,7 +29,7 @@ from graphplan.app.choices import (
     load_scene,
 )
 from graphplan.app.files import DEFAULT_DPI, STANDARD, write
-from graphplan.app.pages import STAGED, SheetExcerpt, save_sheet, sheet_format
+from graphplan.app.pages import STAGED, save_sheet, sheet_format
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -62,8 +62,7 @@ def run(options: argparse.Namespace) -> int:
         write(design_text(load_scene(options)), options.output or STANDARD)
         return 0
     sheet_format(options.output, options.dpi)  # before any work is done
-    excerpt = SheetExcerpt(options.steps or "", options.strip or "", options.by or "",
-                           options.numbers, options.dpi)
-    for line in save_sheet(load_scene(options), options.output, excerpt):
+    excerpt = {name: getattr(options, name) for name in ("steps", "strip", "by", "numbers", "dpi")}
+    for line in save_sheet(load_scene(options), options.output, **excerpt):
         Messages(options.quiet).remark(f"{options.scene}: {line}")
     return 0

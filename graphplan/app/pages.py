@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
 from graphplan import leaves
@@ -30,19 +30,6 @@ STAGES = "-stages"  # what the names of pages of stages add to that of the sheet
 STAGED = "stages"
 
 
-@dataclass(frozen=True)
-class SheetExcerpt:
-    """The part of a sheet that is drawn: `steps` such as 6-12 over earlier ones in grey; a `strip` of pictures, one a
-    mark or one a step; `by` stages on pages of their own, or the sheet alone; with the `numbers` of steps at all marks;
-    a .png in `dpi`."""
-
-    steps: str = ""
-    strip: str = ""
-    by: str = ""
-    numbers: bool = False
-    dpi: int | None = None
-
-
 class SheetFiles(NamedTuple):
     """The files of a sheet, each with its path, and what is not drawn as the pose is singular in part."""
 
@@ -50,39 +37,44 @@ class SheetFiles(NamedTuple):
     missing: tuple[Said, ...]
 
 
-def save_sheet(scene: Scene, path: str | None, excerpt: SheetExcerpt) -> tuple[Said, ...]:
-    """Write the sheet of a scene by the ending of a path, further pages beside it; without one, or where it is `-`, SVG
-    on standard output. Return what is not drawn as the pose is singular in part."""
-    sheet = sheet_files(scene, path, sheet_format(path, excerpt.dpi), excerpt)
+def save_sheet(scene: Scene, path: str | None, *, dpi: int | None = None, **excerpt: Any) -> tuple[Said, ...]:
+    """Write the sheet of a scene, or an excerpt as `sheet_files` has it, by the ending of a path, further pages beside
+    it; without one, or where it is `-`, SVG on standard output. Return what is not drawn as the pose is singular in
+    part."""
+    sheet = sheet_files(scene, path, sheet_format(path, dpi), dpi=dpi, **excerpt)
     files.write_all(sheet.contents)
     return sheet.missing
 
 
-def sheet_files(scene: Scene, path: str | None, name: str, excerpt: SheetExcerpt) -> SheetFiles:
-    """Return the files of the sheet of a scene in a format; without a path the first page alone."""
+def sheet_files(scene: Scene, path: str | None, name: str, *, steps: str = "", strip: str = "", by: str = "",
+                numbers: bool = False, dpi: int | None = None) -> SheetFiles:
+    """Return the files of the sheet of a scene in a format; without a path the first page alone.
+
+    Of it are drawn: `steps` such as 6-12 over earlier ones in grey; a `strip` of pictures, one a mark or one a step;
+    `by` stages on pages of their own, or the sheet alone, strict ones by stages if it is not said; with the `numbers`
+    of steps at all marks; a .png in `dpi`.
+    """
+    from graphplan.sheet import strip as pictures
     from graphplan.sheet.layout.layout import pages, with_numbers
 
     report = drafting.drawable(scene)
     drafted = drafting.on_paper(scene, report)
-    composition = with_numbers(drafted.composition) if excerpt.numbers else drafted.composition
+    composition = with_numbers(drafted.composition) if numbers else drafted.composition
     names, text = files.page_names(path, 2), drafting.as_drawn(report.scene, drafted)
     more: list[Sheet] = []
-    if excerpt.strip:
-        from graphplan.sheet.strip import strip
-
-        sheets = strip(composition, cut=excerpt.strip)
-    elif _wants_stages(excerpt, report.drawing.strict) and (name in WHOLE or len(names) > 1):
-        from graphplan.sheet.strip import by_stages
-
-        sheets, more = by_stages(composition)
+    staged = by == STAGED or (report.drawing.strict and not (by or steps))
+    if strip:
+        sheets = pictures.strip(composition, cut=strip)
+    elif staged and (name in WHOLE or len(names) > 1):
+        sheets, more = pictures.by_stages(composition)
     else:
-        sheets = [_requested_steps(sheet, report.drawing.drawn, excerpt) for sheet in pages(composition)]
+        sheets = [_requested_steps(sheet, report.drawing.drawn, steps) for sheet in pages(composition)]
     sheets, more = ([replace(sheet, scene=text) for sheet in some] for some in (sheets, more))
-    write_out, look = back_end(name), {"dpi": excerpt.dpi or files.DEFAULT_DPI} if name == "png" else {}
+    write_out, look = back_end(name), {"dpi": dpi or files.DEFAULT_DPI} if name == "png" else {}
     if name in WHOLE:
         content = write_out(sheets + more, *([composition.plates] if name == "dxf" else []))
         return SheetFiles([(path, content)], report.drawing.missing)
-    names = files.page_names(path, len(sheets), "" if excerpt.strip else files.PROTOCOL)
+    names = files.page_names(path, len(sheets), "" if strip else files.PROTOCOL)
     names += files.page_names(path, 1 + len(more), STAGES)[1:]
     contents = [(path, write_out(sheet, **look)) for path, sheet in zip(names, sheets + more, strict=False)]
     return SheetFiles(contents, report.drawing.missing)
@@ -96,18 +88,13 @@ def sheet_format(path: str | None, dpi: int | None = None) -> str:
     return name
 
 
-def _wants_stages(excerpt: SheetExcerpt, strict: bool) -> bool:
-    """Whether stages are drawn: on request, and by default without set squares."""
-    return excerpt.by == STAGED or (strict and not (excerpt.by or excerpt.steps))
-
-
-def _requested_steps(sheet: Sheet, drawn: Program, excerpt: SheetExcerpt) -> Sheet:
+def _requested_steps(sheet: Sheet, drawn: Program, steps: str) -> Sheet:
     """The part of the sheet that is asked for."""
-    if not excerpt.steps:
+    if not steps:
         return sheet
     from graphplan.sheet.layout.layout import sheet_at_step, step_range
 
-    first, last = step_range(drawn, excerpt.steps)
+    first, last = step_range(drawn, steps)
     return sheet_at_step(sheet, last, first if first > drawn.givens else 0)  # what is given is earlier than no step
 
 

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from graphplan.app.choices import Messages, add_settings, error, load_scene
 from graphplan.app.files import listening
-from graphplan.app.pages import SheetExcerpt, save_sheet, sheet_format
+from graphplan.app.pages import save_sheet, sheet_format
 from graphplan.errors import GraphplanError, Refused
 
 PERIOD = 0.3  # seconds between two looks at the file
@@ -37,7 +37,7 @@ def run(options: argparse.Namespace) -> int:
     for _ in _saves(path):
         try:
             with listening(lambda name: None):  # of all pages at once
-                save_sheet(load_scene(options), options.output, SheetExcerpt())
+                save_sheet(load_scene(options), options.output)
         except GraphplanError as fault:
             for line in fault.lines:
                 error(line)

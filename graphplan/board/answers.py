@@ -15,7 +15,7 @@ from typing import Any
 
 from graphplan import leaves
 from graphplan.app.drafting import drawable, on_paper, with_sheet
-from graphplan.app.pages import SheetExcerpt, sheet_files
+from graphplan.app.pages import sheet_files
 from graphplan.app.results import find_results
 from graphplan.board.edit import apply_operations
 from graphplan.board.view import scene_data, written_language
@@ -95,7 +95,7 @@ def follow_motion(text: str, name: str) -> Answer:
 @with_faults
 def write_pdf(text: str, name: str, language: str) -> Answer:
     """The sheet as a PDF, in true size."""
-    contents = sheet_files(_scene_in(language, text, name), None, "pdf", SheetExcerpt()).contents
+    contents = sheet_files(_scene_in(language, text, name), None, "pdf").contents
     return {"pdf": contents[0][1], "faults": []}
 
 

@@ -32,7 +32,7 @@ def png(drawing: WorkingDrawing, paper: str | None = None, language: str | None 
 def _first_file(drawing: WorkingDrawing, name: str, paper: str | None, language: str | None,
                 dpi: int | None = None) -> Any:
     from graphplan.app.drafting import with_sheet
-    from graphplan.app.pages import SheetExcerpt, sheet_files
+    from graphplan.app.pages import sheet_files
 
     scene = with_sheet(drawing.given_scene or drawing.scene, {"paper": paper, "language": language})
-    return sheet_files(scene, None, name, SheetExcerpt(dpi=dpi)).contents[0][1]
+    return sheet_files(scene, None, name, dpi=dpi).contents[0][1]

@@ -121,11 +121,11 @@ class PlacedLetters:
 
     @cached_property
     def _settled(self) -> Relabelling:
-        """The letters in their last places, after illegible ones were placed again."""
+        """The letters in their last places, after illegible and far ones were placed again."""
         settled = Relabelling(self.prices.away_from(self.taken), self.choice)
-        if self.rect and (faulty := sorted(settled.faulty)):
-            more = candidates([self.wishes[letter] for letter in faulty], self.rect, FINE_RINGS,
-                              FINE_DIRECTIONS).for_letters(faulty)
+        if self.rect and (misplaced := sorted(settled.misplaced)):
+            more = candidates([self.wishes[letter] for letter in misplaced], self.rect, FINE_RINGS,
+                              FINE_DIRECTIONS).for_letters(misplaced)
             prices, new_index = settled.prices.with_more_places(more[~more.meeting(self.taken)])
             settled = Relabelling(prices, new_index[self.choice])
             settled.relabel(makes_room=not self.in_haste)

@@ -27,8 +27,6 @@ from graphplan.marking.judge.student_sheet import Residual, StudentSheet, plain_
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
 from graphplan.marking.traces import Trace
 
-UNMARKED = -1  # the place of a mark that is not to be seen, whatever else is there
-
 
 @dataclass(frozen=True)
 class Match:
@@ -102,8 +100,7 @@ class Matching:
         """Take the next step for what it was found to be, else for what fits it."""
         if isinstance(found, Mistake):
             return self.take_mistake(found)
-        place = self.find_place() if found is None else found
-        return self.take(None if place == UNMARKED else place)
+        return self.take(self.find_place() if found is None else found)
 
     def try_repeat(self, other: Matching) -> bool:
         """Take the next step as another matching did, if its operands are equal and its trace is free."""

@@ -55,7 +55,6 @@ LETTER_REACH_SIZES = 2.4  # times the letters' size: the same where they are lar
 LETTER_CHOICES = 12  # count: things nearest to a letter that are weighed [cost]
 MAX_UNDOTTED_LETTERS = 150  # count: letters about which crossings are sought [cost]
 LEADER_END_MM = 0.05  # from the end of a leader to the mark in which it ends: sheets are written so finely [defined]
-ASTRAY_DOT_MM = 10.0  # from where a mark should be to a dot that is meant for it, and is no other's [practice]
 LETTER_GAP_SIZES = 0.4  # times the letters' size, from a mark or off their usual place: a cost of one, or half [tuned]
 WRONG_NAME_COST = 4.0  # of a mark elsewhere, of what has a name, or of letters that are of none here [tuned]
 ASIDE_MM = 1.5  # off a mark's place, which costs half of that; of a leader's tip off what it leads to [tuned]
@@ -87,7 +86,6 @@ MIN_CROSSING_SINE = 0.05  # the sine of the angle at which strokes hardly cross 
 
 SURE_SIGMAS = 4.0  # within which a mark, a vector or a claim agrees with what is known [defined]
 SAME_FRAME_SHARE = 0.02  # of themselves: by which frames of one scale, or of one direction, differ [practice]
-MAX_OWN_FRAMES = 3  # count: plans in frames of their own that are tried in those of the task, too [cost]
 MAX_RIVAL_FRAMES = 8  # count: other frames that are tried for a plan [cost]
 MAX_ANCHORS = 400  # count: unlabelled spots in which a mechanism is sought [cost]
 AGREED_SIGMAS = 2 * SURE_SIGMAS  # within which marks agree on where a plan lies: two of them may err [defined]
@@ -129,7 +127,6 @@ ARC_MM = 4.0  # of an arc, to both sides of its mark [practice]
 CANDIDATES = 6  # count: things, pairs, places or spots that are tried for one, the nearest or likeliest first [cost]
 SEARCH_SIGMAS = 25.0  # of a point, within which a picture is searched [tuned]
 MAX_TOLERANCES_OFF = 2.0  # tolerances off: nothing that is farther fits [tuned]
-CHANCE_CROSSING_MM = 8.0  # from a mark, beside whose letter other strokes cross [practice]
 MAX_ASTRAY_MM = 60.0  # no mark is sought further off [tuned]
 
 DIRECTION_SHARE = 0.01  # of its length: how far a line of a wrong direction is off that at its end [practice]

@@ -107,7 +107,7 @@ class Search:
             mine = rival.matches[-1]
             unseen = index != guess.index and mine.place is None and match.place is None
             if unseen or (index in rival.dead and match.place is not None):
-                rival.weight += min(match.sharp_weight - mine.sharp_weight, 0.0)
+                rival.weight += min(match.weight - mine.weight, 0.0)
             if rival.weight + hope < least:
                 return -math.inf
         return rival.weight + hope if has_own_ink(rival, rival.matches[guess.index]) else -math.inf
@@ -331,7 +331,7 @@ def likelihood(matching: Matching) -> float:
         if match.place is None and match.weight < 0 and match.mistake is None:
             left_out[matching.sheet.plan_of_step[match.step.index]] += 1
         else:
-            odds += match.sharp_weight
+            odds += match.weight
     return odds - sum(measures.MISSED_MARK_COST * (1 + math.log(count)) for count in left_out.values())
 
 

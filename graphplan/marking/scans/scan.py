@@ -199,8 +199,8 @@ class PencilPage:
 
     @cached_property
     def _distances(self) -> list[Light]:
-        """Distance of every pixel from the next strong crest, and from the next dot, in mm; -1 if print hides it, or half
-        of the dot."""
+        """Distance of every pixel from the next strong crest, and from the next dot, in mm; -1 if print hides it, or
+        half of the dot."""
         maps, at_dots = [], self._possible_dot_spots.view(float).reshape(-1, 2)
         for spots, half in ((self.ridges.spots[self.ridges.strength > measures.CLEAR_SIGMAS], 0.0),
                             (at_dots, measures.HALF_DOT_MM)):

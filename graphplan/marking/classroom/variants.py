@@ -455,10 +455,10 @@ class SceneDesign(SeriesDesign):
         variants, and scales of their own fewer."""
         fitting, common = self.scales(pilots)
         if 2 * fitting < len(pilots):
-            own = self.wording(sheet_keys(self.scene, None, self.drafted.composition.arrangement.paper))
-            with_own_scales = self._count_fitting(own, pilots)
+            free = self.wording(sheet_keys(self.scene, None, self.drafted.composition.arrangement.paper))
+            with_own_scales = self._count_fitting(free, pilots)
             if with_own_scales > fitting:
-                return replace(own, remark=f"each has scales of its own: of {len(pilots)} variants {with_own_scales} "
+                return replace(free, remark=f"each has scales of its own: of {len(pilots)} variants {with_own_scales} "
                                f"are good so, and {fitting} at the same scales")
         return common
 

@@ -162,7 +162,7 @@ def _marks(start: float, low: float, high: float) -> Iterator[float]:
     yield from (start + RULING_PITCH * i for i in range(first, last + 1))
 
 
-# ---- dimensions on a task's figure: only where they stand clear, as the facts say all --------------------------------
+# ---- dimensions on a task's figure: where they stand clear, else their numbers alone; the facts say all ------------
 
 
 DIMENSIONS = "dimensions"
@@ -172,6 +172,7 @@ MIN_LENGTH_MM = 12.0  # of a line that bears two heads
 LEVELS_MM = 7.0, 10.0, 13.0, 17.0, 21.0  # from a link to its line
 MAX_SHORT_LEVEL_MM = 13.0  # of a line that short lines lead to: further away it would float
 ALONG = 0.5, 0.35, 0.65  # where along a line its number may stand
+BESIDE_LINK_MM = 1.5, 3.0, 5.0, 8.0  # from a link to a number without a line
 RADII_MM = tuple(DRIVE_RADIUS + further for further in (4.0, 8.0, 12.0, 17.0))  # of arcs: outside the sense of turning
 MIN_ANGLE = 12.0  # degrees: a smaller one has no room for an arc
 
@@ -197,11 +198,11 @@ def _number(fact: SaidFact, tongue: Tongue) -> Runs:
 
 
 def _length_places(start: Spot, end: Spot, number: Runs) -> Iterator[list[Item]]:
-    """A line beside a link, its two leading lines, and its number on the far side; nearer places first."""
-    if math.dist(start, end) < MIN_LENGTH_MM:
-        return
+    """A line beside a link, its two leading lines, and its number on the far side, nearer places first; then the number
+    alone beside the link."""
     along = unit_vector(start, end)
-    for level, side, foot in product(LEVELS_MM, (1, -1), (FOOT_MM, None)):
+    levels = LEVELS_MM if math.dist(start, end) >= MIN_LENGTH_MM else ()
+    for level, side, foot in product(levels, (1, -1), (FOOT_MM, None)):
         if foot is None and level > MAX_SHORT_LEVEL_MM:
             continue
         tips = tuple(offset(spot, along, 0.0, side * level) for spot in (start, end))
@@ -212,6 +213,9 @@ def _length_places(start: Spot, end: Spot, number: Runs) -> Iterator[list[Item]]
                            (offset(tip, away, -from_line), offset(tip, away, PAST_MM))) for tip in tips]
         for part in ALONG:
             yield [*lines, _text_beside(interpolate(tips[0], tips[1], part), away, number)]
+    for far, part, side in product(BESIDE_LINK_MM, ALONG, (1, -1)):
+        away = (-side * along[1], side * along[0])
+        yield [_text_beside(offset(interpolate(start, end, part), away, far), away, number)]
 
 
 def _angle_places(mechanism: DrawnMechanism, pin: str, end: str, number: Runs) -> Iterator[list[Item]]:

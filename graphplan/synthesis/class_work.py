@@ -17,19 +17,38 @@ from graphplan.errors import GraphplanError
 from graphplan.kernel.drawn import crossing
 from graphplan.kernel.kinds import Movement
 from graphplan.marking.classroom import measures
-from graphplan.marking.classroom.booklet import KEY_TITLE, Exercise, KeyRow, PrintedExercise, six_digits
-from graphplan.marking.classroom.variants import DrawnSize, Flaw, Quality, SeriesDesign, Values, Wording, drawn_sizes
+from graphplan.marking.classroom.booklet import (
+    KEY_TITLE,
+    Exercise,
+    KeyLine,
+    KeyRow,
+    PrintedExercise,
+    key_rows_of_lines,
+    six_digits,
+)
+from graphplan.marking.classroom.variants import (
+    DrawnSize,
+    FitVariant,
+    Flaw,
+    Quality,
+    SeriesDesign,
+    Values,
+    Wording,
+    drawn_sizes,
+)
 from graphplan.methods.executors import SharedOut
-from graphplan.phrases import arrange, unit
+from graphplan.phrases import digits, unit
+from graphplan.sheet.layout.measures import COLUMN_MM
 from graphplan.sheet.plates.display import Sheet
 from graphplan.synthesis.exports import asked_lengths
 from graphplan.synthesis.handout import SynthesisHandout
-from graphplan.synthesis.sheet import lengths_text
+from graphplan.synthesis.sheet import length_letters
 from graphplan.synthesis.sketch import Synthesis
 from graphplan.synthesis.task import SynthesisTask, parse
 from graphplan.words.tongue import tongue
 
 DrawTask = Callable[[SynthesisTask], SynthesisHandout]  # a task on its sheets, as the options say
+KEY_DIGITS = 5  # count: of a length in the key
 
 
 def quality_of_handout(handout: SynthesisHandout) -> Quality:
@@ -44,11 +63,10 @@ def quality_of_handout(handout: SynthesisHandout) -> Quality:
     return Quality(sizes, (), 0.0, True, math.degrees(math.asin(min(sines, default=1.0))), defects=defects)
 
 
-def assess_task(text: str, name: str, draw: DrawTask, own: Quality) -> Flaw | None:
-    """Reason why a task is unsuitable for a class whose own task has a sheet of this quality; None if it is
-    suitable."""
+def assess_task(text: str, name: str, draw: DrawTask, own: Quality) -> Flaw | FitVariant:
+    """Reason why a task is unsuitable for a class whose own task has a sheet of this quality, or that it fits."""
     try:
-        return quality_of_handout(draw(parse(text, name))).find_flaw(own)
+        return quality_of_handout(draw(parse(text, name))).find_flaw(own) or FitVariant()
     except GraphplanError as error:
         return Flaw("nothing is found", f"{error}".removeprefix(f"{name}: ").partition(";")[0])
 
@@ -85,10 +103,11 @@ def print_task(exercise: Exercise, draw: DrawTask) -> PrintedExercise:
     task = parse(exercise.variant.text, exercise.file)
     sheet = replace(task.sheet, student=exercise.student, group=exercise.group, variant=str(exercise.variant.number))
     handout = draw(replace(task, sheet=sheet))
-    lengths = asked_lengths(handout.synthesis)
-    answers = handout.on_paper.page.tongue(lengths_text(lengths, unit(task.units.length), 5)) if lengths else ""
+    say = handout.on_paper.page.tongue
+    answers = {f"{length_letters(name)}, {say(unit(task.units.length))}": say(digits(size, KEY_DIGITS))
+               for name, size in asked_lengths(handout.synthesis).items()}
     return exercise.put_on_paper(handout.on_paper.code, handout.pages_of("task"), handout.pages_of("solution"),
-                                 key_rows(handout.synthesis), answers)
+                                 key_rows(handout.synthesis), answers, say)
 
 
 def key_rows(synthesis: Synthesis) -> Iterator[KeyRow]:
@@ -102,8 +121,7 @@ def key_rows(synthesis: Synthesis) -> Iterator[KeyRow]:
             yield KeyRow("point", name, six_digits(at.real, largest), six_digits(at.imag, largest), "", unit)
 
 
-def key_pages(handout: SynthesisHandout, lines: Sequence[str]) -> list[Sheet]:
-    """The first pages of the key: the line of each variant, counted from 1."""
+def key_pages(handout: SynthesisHandout, lines: Sequence[KeyLine]) -> list[Sheet]:
+    """The first pages of the key: the line of each variant."""
     sheet = replace(handout.on_paper, document=KEY_TITLE).sheet
-    return sheet.pages_of_words([row for number, line in enumerate(lines, 1)
-                                 for row in sheet.rows_of(arrange("{0}", line), str(number))])
+    return sheet.pages_of_words(key_rows_of_lines(lines, COLUMN_MM, sheet.tongue))

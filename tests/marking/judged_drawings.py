@@ -21,6 +21,7 @@ from drawing_files import FORMATS, PROGRAMS
 from drawing_tasks import BOTH, SINGLE
 from face import ran
 
+PRIME = "'"
 COMPLETE, MISTAKEN = 97.0, 95.0  # what a right drawing has of 100 at least, and one with a mistake at most
 LINKAGES = ("four-bar", "slider-crank", "ozols-5-1", "shaper", "rosenauer-basic", "five-bar", "stephenson",
             "class-four", "open-chain")
@@ -69,8 +70,31 @@ class Judged:
         """Whether the place of the mistake is named."""
         fault = self.drawing.fault
         assert fault
-        return bool(self.words) and (self.words.startswith(fault.mark) if self.drawing.numbers
-                                     else place_named(fault, self.words))
+        if self.drawing.numbers:
+            return bool(self.words) and self.words.startswith(fault.mark)
+        return bool(self.words) and (place_named(fault, self.words) or self.words.split("|")[0] in self.lines_to_mark)
+
+    @property
+    def lines_to_mark(self) -> set[str]:
+        """The lines that meet in a mark that is beside its place, or at the end of a wrong locus: who draws one wrong,
+        puts the mark wrong."""
+        fault, task = self.drawing.fault, self.drawing.task
+        assert fault
+        mark = fault.mark.partition(" by ")[0] if fault.kind in ("slip", "wrong side", "right angle") else ""
+        names = {mark, f"v_{mark}", f"{mark.rstrip(PRIME).upper()}_1"} if mark else set()
+        return {str(read) for step in hand.steps_of(hand.scene_file(task), *task.options)
+                if step["makes"] in names and step["operation"] == "meet" for read in step["reads"]}
+
+    @property
+    def is_looked_at(self) -> bool:
+        """Whether nothing is called wrong, and the place of the mistake is to be looked at."""
+        assert self.drawing.fault
+        steps = [] if self.first or not self.data else self.data["steps"]
+        return any(place_named(self.drawing.fault, step["mark"]) for step in steps if step["verdict"] == "unsure")
+
+    @property
+    def is_accused_elsewhere(self) -> bool:
+        return bool(self.first) and not self.is_placed
 
     @property
     def is_explained(self) -> bool:
@@ -124,9 +148,10 @@ def on_task(take: Callable[..., pictures.Grey]) -> Put:
 class Kind:
     """A kind of drawings: how they are made, of which names, and in what shares they are to be judged well.
 
-    `alarms` are right drawings in which a step is called wrong, `complete` those that have all points; `placed` and
-    `explained` are drawings with a mistake whose place, and whose kind is named too; `praised` those that have nearly
-    all points for all that; `unread` is of both.
+    `alarms` are right drawings in which a step is called wrong, `complete` those that have all points; `placed` are
+    drawings with a mistake whose place is named, or in a picture is to be looked at, and `explained` are those of them
+    in which something is called wrong whose kind is named too; `elsewhere` are those in which another step is called
+    wrong first, `praised` those that have nearly all points for all that; `unread` is of both.
     """
 
     put: Put
@@ -135,6 +160,7 @@ class Kind:
     complete: float = 1.0
     placed: float = 1.0
     explained: float = 1.0
+    elsewhere: float = 0.0
     praised: float = 0.0
     unread: float = 0.0
     number: int = 10  # in the suite, right ones and as many with a mistake
@@ -155,8 +181,9 @@ class Kind:
         wrong = [*islice(self.drawings(True, first_seed, folder), number)]
         return {"alarms": sum(bool(one.first) for one in fair) / number,
                 "complete": sum(one.score >= COMPLETE for one in fair) / number,
-                "placed": sum(one.is_placed for one in wrong) / number,
-                "explained": sum(one.is_explained for one in wrong) / number,
+                "placed": sum(one.is_placed or one.is_looked_at for one in wrong) / number,
+                "explained": sum(one.is_explained for one in wrong) / max(1, sum(bool(one.first) for one in wrong)),
+                "elsewhere": sum(one.is_accused_elsewhere for one in wrong) / number,
                 "praised": sum(one.score >= MISTAKEN for one in wrong) / number,
                 "unread": sum(one.data is None for one in (*fair, *wrong)) / number / 2}
 
@@ -178,7 +205,7 @@ KINDS = {  # shares as they were measured
                                    lambda name, seed: hand.results_alone(hand.mistaken(name, seed))), [*SINGLE],
                           complete=0.5, explained=0.9),
     "the task's own steps": Kind(as_files(["csv"], hand.retraced, hand.mistaken_retraced), [*LINKAGES, "jaanimets-11"],
-                                 placed=0.9, explained=0.9),
+                                 placed=0.9, explained=0.9, elsewhere=0.1),
     "tables": Kind(as_files(["csv"], hand.table, hand.mistaken_table), LINKAGES),
     # of pictures a result whose mark is not seen is to be looked at: such a drawing is not complete
     "scans": Kind(on_task(partial(pictures.scan, dpi=120.0)), pictures.PICTURED, complete=0.8, placed=0.9,

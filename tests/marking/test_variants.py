@@ -10,8 +10,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import pypdfium2
 import pytest
 from face import ran
+from handed_out import handed_out
+from inked_sheet import said
 
 import graphplan as gp
 
@@ -86,3 +89,53 @@ def test_the_key_of_a_machine_is_right(tmp_path: Path) -> None:
     rows = [row.split(",", 2)[2] for row in key.splitlines()]
     (tmp_path / "results.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
     assert ran("verify", variant, tmp_path / "results.csv", "--json").json["score"]["total"] == 100
+
+
+def class_of(folder: Path, vary: str, count: int) -> tuple[str, list[dict[str, Any]], list[str]]:
+    """A class of a slider-crank: what is said on standard error, its scenes, and the lines of its printed key."""
+    text = re.sub(r"(?s)\n\[vary\].*?(?=\n\[|$)", "\n", gp.load("ozols-5-1").text)
+    (scene := folder / "scene.toml").write_text(f"{text}\n[vary]\n{vary}\n")
+    done = ran("variants", scene, "-n", f"{count}", "--jobs", "1", "-o", folder / "class")
+    assert done.status == 0, done.err
+    with pypdfium2.PdfDocument(folder / "class" / "key.pdf") as key:
+        lines = key[0].get_textpage().get_text_range().splitlines()
+    scenes = [tomllib.loads(path.read_text()) for path in sorted((folder / "class").glob("variant-*.toml"))]
+    return done.err, scenes, lines
+
+
+def test_values_are_spread_and_the_key_is_a_table(tmp_path: Path) -> None:
+    """Eight tasks have eight of nine angles, whatever else varies; the key has a line a task and a column a result."""
+    told, scenes, key = class_of(tmp_path, '"points.A.angle" = { from = 20, to = 52, step = 4 }\n'
+                                 '"drive.0.omega" = [8, 10, 12]', 8)
+    angles = [scene["points"]["A"]["angle"] for scene in scenes]
+    assert len({*angles}) == 8
+    assert {scene["drive"][0]["omega"] for scene in scenes} == {8, 10, 12}
+    assert "scaled copies" not in told
+    first = next(number for number, line in enumerate(key) if "mm/s" in line)
+    assert all(f"{number} {angle:g}" in " ".join(line.split()) and line.count("∠") == key[first].count("mm/s")
+               for number, (angle, line) in enumerate(zip(angles, key[first + 1:first + 9], strict=True), 1))
+
+
+def test_scaled_copies_are_told(tmp_path: Path) -> None:
+    """Tasks that differ in the speed of the drive alone are copies of one another, at another scale."""
+    told, scenes, _ = class_of(tmp_path, '"drive.0.omega" = [8, 10, 12]', 3)
+    assert {scene["drive"][0]["omega"] for scene in scenes} == {8, 10, 12}
+    assert "2 variants are scaled copies of others" in told
+
+
+def test_tasks_have_scales_of_their_own_where_common_ones_reject_half(tmp_path: Path) -> None:
+    """Cranks of very different lengths do not fit one scale: it is said, and their sheets name none."""
+    told, scenes, _ = class_of(tmp_path, '"points.A.distance" = [60, 90, 140, 220, 340]', 3)
+    assert "each has scales of its own" in told
+    assert not any("k_s" in scene["sheet"] for scene in scenes)
+
+
+@pytest.mark.parametrize("scene", ["four-bar", "ozols-5-1", "shaper", "stephenson"])
+def test_the_figure_of_a_task_has_every_length_that_is_given(scene: str) -> None:
+    """Beside its link, with a dimension line where there is room."""
+    page = handed_out(scene)[0][0]
+    given, figure = (" ".join(said(element) for key, element in page.texts if key == layer)
+                     for layer in ("given", "layer-dimensions"))
+    lengths = re.findall(r"(\w+ = [\d.]+)", re.findall(r"Links: (.*?) mm", given)[0])
+    assert len(lengths) > 3
+    assert [length for length in lengths if length not in figure] == []

@@ -1,10 +1,10 @@
 """What is printed for a class: the booklet of its tasks, and the key: who has which variant, and the results of each,
-as a table that `graphplan verify` reads of a student.
+as a table with a line a student and a column a result, and as one that `graphplan verify` reads of a student.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -17,17 +17,18 @@ from graphplan.mechanism.scene import parse
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind, kind_of
 from graphplan.methods.results import facts
-from graphplan.phrases import join, said
+from graphplan.phrases import figures, said
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.handout import code, solution, task
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import back_to_front, frame_items, layout, title_items
 from graphplan.sheet.layout.paper import paginate_tightly, words_page
+from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates.display import Sheet
 from graphplan.sheet.tolerances import ZERO_TOL
-from graphplan.sheet.words.facts import drawing_facts
-from graphplan.sheet.words.rows import Deviations, TextRow, largest_size, row_items
-from graphplan.sheet.words.texts import SheetWords
+from graphplan.sheet.words.facts import SaidFact, drawing_facts
+from graphplan.sheet.words.rows import Deviations, TextRow, is_narrow, largest_size, row_items, table_rows
+from graphplan.words.tongue import Tongue
 
 
 @dataclass(frozen=True)
@@ -40,24 +41,34 @@ class Exercise:
     file: str
 
     def put_on_paper(self, code: int, task: Sequence[Sheet], solution: Sequence[Sheet], results: Iterable[KeyRow],
-                     answers: str) -> PrintedExercise:
-        """Print the exercise, with its line in the key: its student, its values, and its answers."""
-        who = f"{self.student} ({self.group})" if self.group else self.student
+                     answers: Mapping[str, str], say: Tongue) -> PrintedExercise:
+        """Print the exercise, with its line in the key: its student, its values, and its `answers` by their headings.
+        """
+        student = f"{self.student} ({self.group})" if self.group else self.student
+        values = {name: say(figures(value.replace("-", "\N{MINUS SIGN}")))
+                  for name, value in self.variant.named_values.items()}
         rows = [(self.variant.number, self.student, *row) for row in results]
         return PrintedExercise(code, tuple(task), tuple(solution), rows,
-                               ": ".join(filter(None, (who, self.variant.numbers_text, answers))))
+                               KeyLine(f"{self.variant.number}  {student}", {**values, **answers}))
+
+
+class KeyLine(NamedTuple):
+    """A line of the key: whose it is, and its numbers by the headings of their columns."""
+
+    who: str
+    numbers: Mapping[str, str]
 
 
 @dataclass(frozen=True)
 class PrintedExercise:
     """Printed parts of an exercise: its code, the pages of the task and of the solution, the rows of its results in the
-    key, and one line with its student, its values, and its answers."""
+    file of the key, and its line in the printed key."""
 
     code: int
     task: tuple[Sheet, ...]
     solution: tuple[Sheet, ...]
     rows: Sequence[Row]
-    line: str
+    line: KeyLine
 
 
 def print_exercise(exercise: Exercise, draw: Draw, further: Callable[[Scene], Iterable[KeyRow]]) -> PrintedExercise:
@@ -71,7 +82,8 @@ def print_exercise(exercise: Exercise, draw: Draw, further: Callable[[Scene], It
     _, answers = drawing_facts(drawing, drawing.read(Floats()), Deviations())
     return exercise.put_on_paper(code(composition), task(composition), solution(composition),
                                  (*key_rows(drawing), *further(scene)),
-                                 composition.plans.tongue(join(fact.quantity for fact in answers)))
+                                 dict(_key_column(fact, composition.plans.tongue) for fact in answers),
+                                 composition.plans.tongue)
 
 
 # ---- the key --------------------------------------------------------------------------------------------------------
@@ -79,6 +91,26 @@ def print_exercise(exercise: Exercise, draw: Draw, further: Callable[[Scene], It
 
 KEY_TITLE = said("Key")
 KEY_COLUMNS = "variant", "student", "quantity", "of", "x", "y", "value", "unit"
+
+
+def _key_column(fact: SaidFact, say: Tongue) -> tuple[str, str]:
+    """Heading of a result's column, with its unit, and its value there; of a vector with its direction."""
+    measure, angle, direction = say(fact.unit).partition(" ∠ ")
+    return f"{say(fact.symbol)}, {measure}" if measure else say(fact.symbol), f"{say(fact.value)}{angle}{direction}"
+
+
+def key_rows_of_lines(lines: Sequence[KeyLine], wide: float, say: Tongue) -> Iterator[TextRow]:
+    """The lines of a key as rows: a column a number, in as many tables as it takes where they are so wide at most."""
+    whose = [sentence_runs(text) for text in (say(said("Variant")), *(line.who for line in lines))]
+    table = [[runs] for runs in whose]
+    for head in dict.fromkeys(head for line in lines for head in line.numbers):
+        column = [sentence_runs(head), *(sentence_runs(line.numbers.get(head, "")) for line in lines)]
+        longer = [[*row, runs] for row, runs in zip(table, column, strict=True)]
+        if len(table[0]) > 1 and not is_narrow(longer, wide):
+            yield from table_rows(table)
+            longer = [[*row] for row in zip(whose, column, strict=True)]
+        table = longer
+    yield from table_rows(table)
 
 
 class KeyRow(NamedTuple):
@@ -114,14 +146,14 @@ def six_digits(value: float, largest: float) -> str:
     return f"{value if abs(value) > ZERO_TOL * largest else 0.0:.6g}"
 
 
-def overview(composition: Composition, lines: Sequence[str]) -> Iterator[Sheet]:
-    """The first pages of the key: the line of each variant, counted from 1."""
+def overview(composition: Composition, lines: Sequence[KeyLine]) -> Iterator[Sheet]:
+    """The first pages of the key: the line of each variant."""
     plans, scene = composition.plans, composition.plans.drawing.scene
-    words, frame = SheetWords(plans), frame_of(scene)
-    page = words_page(frame.paper("A4"), frame, frame.block(scene, plans.tongue))
+    frame = frame_of(scene)
+    page = words_page(frame.paper("A4"), frame, frame.block(scene, plans.tongue), in_columns=False)
 
     def rows(wide: float) -> Sequence[TextRow]:
-        return [row for number, line in enumerate(lines, 1) for row in words.paragraph(line, wide, number=f"{number}")]
+        return list(key_rows_of_lines(lines, wide, plans.tongue))
 
     apart, filled = replace(composition, arrangement=page), paginate_tightly(page.set(rows), page)
     first = layout(composition, document=KEY_TITLE)

@@ -22,7 +22,7 @@ from graphplan.output import back_end
 from graphplan.sheet.frames.frame import corner_numbers
 
 if TYPE_CHECKING:
-    from graphplan.marking.classroom.booklet import Exercise, PrintedExercise
+    from graphplan.marking.classroom.booklet import Exercise, KeyLine, PrintedExercise
     from graphplan.marking.classroom.variants import ClassVariant, SeriesDesign
     from graphplan.methods.executors import SharedOut
     from graphplan.sheet.plates.display import Sheet
@@ -248,7 +248,7 @@ class ClassWork:
 
     design: Callable[[SharedOut], SeriesDesign]
     print_exercise: Callable[[Exercise], PrintedExercise]
-    key_pages: Callable[[Sequence[str]], Sequence[Sheet]]
+    key_pages: Callable[[Sequence[KeyLine]], Sequence[Sheet]]
     title: str
     scene_key: str = ""
     scene_file: str = ""

@@ -2,9 +2,11 @@
 
 What the scene's own sheet has no better is no flaw of a variant, as far as it is not much worse there.
 
-Numbers are drawn uniformly from the grid of all values, none twice before the grid is empty, by a seed of which alone
-the draw depends. A variant is kept whose sheet is without a flaw on the paper and at the scales of the class; these are
-the scene's own, or where too few variants fit those, the largest that most of the first variants fit.
+Of each number the values are drawn that are given out least, spread over its range, by a seed of which alone the draw
+depends; no variant is given out twice, and none that is a scaled copy of another, before the grid of all values is
+empty. A variant is kept whose sheet is without a flaw on the paper and at the scales of the class; these are the
+scene's own, or where too few variants fit those, the largest that most of the first variants fit. Where all together
+would reject half of them, each variant has scales of its own.
 """
 
 from __future__ import annotations
@@ -15,15 +17,18 @@ import tomllib
 from abc import ABC, abstractmethod
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
-from itertools import chain, islice
+from itertools import product
 from random import Random
 from typing import Any, ClassVar, NamedTuple
 
+import numpy as np
+
 from graphplan.accuracy.drafted import Drafted
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SceneError, SingularPose
+from graphplan.kernel.numbers import Floats
 from graphplan.marking.classroom import measures
 from graphplan.marking.tolerances import SCALE_STEP
 from graphplan.mechanism.model import Scene
@@ -39,14 +44,17 @@ from graphplan.mechanism.scene_text import (
     with_numbers,
     without_table,
 )
+from graphplan.methods.construction import Construction
 from graphplan.methods.executors import SharedOut
 from graphplan.phrases import said
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.paper import unit_lengths
 from graphplan.sheet.layout.scales import Scales, round_up
+from graphplan.sheet.tolerances import ZERO_TOL
 from graphplan.words.tongue import Tongue
 
 Draw = Callable[[Scene], Drafted]  # a scene on its sheet without pages of words, as the options say
+Shape = tuple[float, ...]
 
 
 class Flaw(NamedTuple):
@@ -134,12 +142,21 @@ def drawn_sizes(composition: Composition) -> Iterator[tuple[str, DrawnSize]]:
             yield name, DrawnSize(length, measures.MIN_ASKED_MM if (start, end) in results else measures.MIN_DRAWN_MM)
 
 
-def assess(text: str, name: str, draw: Draw, own: Quality) -> Flaw | Mapping[str, Fraction]:
-    """Why a scene is no task for the class whose own scene has a sheet of this quality; how large its other plans are
-    where it is one."""
+@dataclass(frozen=True)
+class FitVariant:
+    """A variant without a flaw: how large its other plans are, and the `shape` of what is drawn, which its scaled
+    copies have too; empty where that is not told."""
+
+    multiples: Mapping[str, Fraction] = field(default_factory=dict)
+    shape: Shape = ()
+
+
+def assess(text: str, name: str, draw: Draw, own: Quality) -> Flaw | FitVariant:
+    """Why a scene is no task for the class whose own scene has a sheet of this quality, or how it fits it."""
     try:
         sheet = draw(parse(text, name))
-        return Quality.of_sheet(sheet).find_flaw(own) or sheet.composition.scales.multiples
+        return Quality.of_sheet(sheet).find_flaw(own) or FitVariant(sheet.composition.scales.multiples,
+                                                                    drawn_shape(sheet.drawing))
     except SceneError as error:
         return Flaw("it cannot be assembled", f"{error.faults[0].where}: {error.faults[0].what}")
     except (SingularPose, ConstructionError) as error:
@@ -148,6 +165,18 @@ def assess(text: str, name: str, draw: Draw, own: Quality) -> Flaw | Mapping[str
         return Flaw("it does not fit the scales of the class", f"{error.what}: {error.why}")
     except GraphplanError as error:
         return Flaw("it cannot be drawn", f"{error}")
+
+
+def drawn_shape(drawing: Construction) -> Shape:
+    """The points of a mechanism and its results, each kind relative to its largest number: a scaled copy has the same.
+    """
+    places = np.array([drawing.scene.points[name] for name in sorted(drawing.scene.points)], float)
+    kinds = [places - places[:1], *(np.array([named[name] for name in sorted(named)], float)
+                                    for named in drawing.read(Floats()).values() if named)]
+    largest = [kind.flat[np.abs(kind).argmax()] for kind in kinds]
+    least = ZERO_TOL * max(map(abs, largest))
+    numbers = [kind / size if abs(size) > least else 0.0 * kind for kind, size in zip(kinds, largest, strict=True)]
+    return tuple(number for kind in numbers for number in np.round(kind, measures.SHAPE_DECIMALS).ravel().tolist())
 
 
 Values = Mapping[str, Fraction]  # by the paths of the numbers
@@ -166,9 +195,9 @@ class ClassVariant:
     text: str
 
     @property
-    def numbers_text(self) -> str:
+    def named_values(self) -> dict[str, str]:
         """Drawn values, by readable names: `A x` for `points.A.0`."""
-        return ", ".join(f"{_path_words(path)} = {decimal_text(value)}" for path, value in self.values.items())
+        return {_path_words(path): decimal_text(value) for path, value in self.values.items()}
 
 
 @dataclass(frozen=True)
@@ -178,6 +207,8 @@ class VariantSeries:
     variants: tuple[ClassVariant, ...]
     drawn_anew: tuple[tuple[int, Values, Flaw], ...]
     repeated: int  # variants whose numbers another has, too
+    copies: int  # variants that are scaled copies of another
+    remark: str  # on their scales, if they have no common ones
     short: Mapping[str, DrawnSize]  # what is too short on the scene's own sheet, and may be so on theirs
 
     @property
@@ -190,6 +221,11 @@ class VariantSeries:
         if self.short:
             sizes = ", ".join(f"{name} has {size.mm:.1f} mm" for name, size in self.short.items())
             yield f"too short on the scene's own sheet, and allowed to be so on others: {sizes}"
+        if self.remark:
+            yield self.remark
+        if self.copies:
+            yield (f"[vary] has too few values: {self.copies} variants are scaled copies of others; "
+                   "let an angle or a length vary more")
         if self.repeated:
             yield f"[vary] has too few good values: {self.repeated} variants have the numbers of another"
 
@@ -208,25 +244,72 @@ def values_text(values: Values) -> str:
     return ", ".join(f"{path} = {decimal_text(value)}" for path, value in values.items())
 
 
-def draw_values(choices: Choices, seed: int) -> Iterator[Values]:
-    """Yield values drawn uniformly, without repetition, until the grid is empty."""
-    # of which Python promises the same numbers for ever
-    random, drawn_places = Random(seed).random, set[tuple[int, ...]]()
-    while len(drawn_places) < math.prod(map(len, choices.values())):
-        places = tuple(int(random() * len(values)) for values in choices.values())
-        if places not in drawn_places:
-            drawn_places.add(places)
-            yield {path: values[place] for (path, values), place in zip(choices.items(), places, strict=True)}
+class Draws:
+    """Draws of values without repetition, until the grid is empty: of each number that value which is kept least, then
+    drawn least, then the next of a walk that spreads over the range from its first steps on.
+
+    Source: the walks are those of M. Roberts, The unreasonable effectiveness of quasirandom sequences (2018).
+    """
+
+    def __init__(self, choices: Choices, seed: int):
+        self.choices = choices
+        self.count = math.prod(map(len, choices.values()))
+        self._drawn_places = set[tuple[int, ...]]()
+        self._kept = {path: Counter[Fraction]() for path in choices}
+        self._drawn = {path: Counter[Fraction]() for path in choices}
+        random = Random(seed).random  # of which Python promises the same numbers for ever
+        golden = 1.0  # the root of x^(n + 1) = x + 1, for n numbers: the golden ratio for one
+        for _ in range(measures.GOLDEN_ITERATIONS):
+            golden = (1.0 + golden) ** (1.0 / (len(choices) + 1))
+        self._walks = {path: _walk(len(values), random(), golden**-power)
+                       for power, (path, values) in enumerate(choices.items(), 1)}
+
+    def next_values(self, count: int) -> list[Values]:
+        """So many draws, or as many as the grid still has."""
+        return [self._next() for _ in range(min(count, self.count - len(self._drawn_places)))]
+
+    def _next(self) -> Values:
+        places = next(places for places in product(*map(self._ordered_places, self.choices))
+                      if places not in self._drawn_places)
+        self._drawn_places.add(places)
+        values = {path: values[place] for (path, values), place in zip(self.choices.items(), places, strict=True)}
+        for path, value in values.items():
+            self._drawn[path][value] += 1
+        return values
+
+    def _ordered_places(self, path: str) -> list[int]:
+        """The places of a number's values, the next first."""
+        values, kept, drawn = self.choices[path], self._kept[path], self._drawn[path]
+        return sorted(self._walks[path], key=lambda place: (kept[values[place]], drawn[values[place]]))
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether all values of the grid are drawn."""
+        return len(self._drawn_places) == self.count
+
+    def keep(self, values: Values) -> None:
+        """Note values as given out."""
+        for path, value in values.items():
+            self._kept[path][value] += 1
+
+
+def _walk(count: int, start: float, share: float) -> list[int]:
+    """The places of so many values in the order in which steps of a share of the range come to them from a start."""
+    ways = (start + share * np.arange(count)) % 1.0
+    order: list[int] = np.argsort(np.argsort(ways)).tolist()
+    return order
 
 
 @dataclass(frozen=True)
 class Wording:
-    """Wording of a class's scenes: the text, their title, their common keys of [sheet], their language."""
+    """Wording of a class's scenes: the text, their title, their common keys of [sheet], their language, and a remark on
+    their scales, if they have no common ones."""
 
     text: str
     title: str
     keys: Keys
     tongue: Tongue
+    remark: str = ""
 
     def variant(self, number: int, values: Values) -> ClassVariant:
         """The scene with these numbers, as a teacher would write it: without [vary], its comments kept."""
@@ -254,10 +337,12 @@ def _set_path(tables: Any, path: Sequence[str], value: Fraction) -> None:
     tables[int(path[-1]) if isinstance(tables, list) else path[-1]] = value
 
 
-def sheet_keys(scene: Scene, scales: Scales, paper: str, *, multiples: bool = True) -> Keys:
-    """Keys of [sheet] that give this paper and these scales; existing ones are left out."""
+def sheet_keys(scene: Scene, scales: Scales | None, paper: str, *, multiples: bool = True) -> Keys:
+    """Keys of [sheet] that give this paper and these scales, if there are any; existing ones are left out."""
     sheet = scene.sheet
     keys = {"paper": json.dumps(paper), "language": json.dumps(sheet.language)}
+    if scales is None:
+        return keys
     rates = bool(scene.drives or scene.motions)
     keys |= {} if sheet.k_s else {"k_s": _short_decimal(scales.k_s)}
     keys |= {} if sheet.k_v or not rates else {"k_v": _short_decimal(scales.k_s / scales.kappa)}
@@ -302,28 +387,37 @@ class SeriesDesign(ABC):
                                (wording.variant(number, values).text for values in variants))
 
     def series(self, count: int, seed: int, progress: Progress) -> VariantSeries:
-        """So many variants, no two alike before all good ones of the grid are given out; fails with `Refused` where
-        hardly any that is drawn is without a flaw."""
+        """So many variants, no two alike, and no scaled copies, before all others of the grid are given out; fails with
+        `Refused` where hardly any that is drawn is without a flaw."""
         choices = self.source.vary
-        tried = [*islice(draw_values(choices, seed), measures.DRAWS_PER_VARIANT * count + measures.MIN_DRAWS)]
-        wording, known = self.common_wording(tried[:min(measures.PILOT_VARIANTS, count + 2)], count)
-        good_values, drawn_anew = list[Values](), list[tuple[int, Values, Flaw]]()
-        flaws = chain(known, self.assess(wording, count, tried[len(known):]))
-        for values, wrong in zip(tried, flaws, strict=False):
-            if isinstance(wrong, Flaw):
-                drawn_anew.append((len(good_values) + 1, values, wrong))
-            else:
-                good_values.append(values)
-            progress(len(good_values), count)
-            if len(good_values) == count or (
+        pilots = Draws(choices, seed).next_values(min(measures.PILOT_VARIANTS, count + 2))
+        wording, known = self.common_wording(pilots, count)
+        draws, shapes = Draws(choices, seed), set[Shape]()
+        good_values, copies, drawn_anew = list[Values](), list[Values](), list[tuple[int, Values, Flaw]]()
+        while (missing := count - len(good_values)) and (batch := draws.next_values(missing)):
+            outcomes = [*known[:len(batch)], *self.assess(wording, count, batch[len(known):])]
+            known = ()  # the first draws are the pilots'
+            for values, outcome in zip(batch, outcomes, strict=True):
+                if isinstance(outcome, Flaw):
+                    drawn_anew.append((len(good_values) + 1, values, outcome))
+                elif outcome.shape and outcome.shape in shapes:
+                    copies.append(values)
+                else:
+                    shapes.add(outcome.shape)
+                    draws.keep(values)
+                    good_values.append(values)
+                progress(len(good_values), count)
+            are_copies_alone = missing == count - len(good_values) and len(copies) >= missing
+            if are_copies_alone or (
                     len(drawn_anew) > measures.MIN_DRAWS + measures.DRAWS_PER_VARIANT * len(good_values)):
                 break
-        if (len(good_values) < count
-            and not (good_values and len(good_values) + len(drawn_anew) == math.prod(map(len, choices.values())))):
+        given_out = (good_values + copies)[:count]
+        if len(given_out) < count and not (given_out and draws.is_empty):
             raise self._too_wide(wording, count, good_values, drawn_anew)
-        variants = (wording.variant(number, good_values[(number - 1) % len(good_values)])
+        variants = (wording.variant(number, given_out[(number - 1) % len(given_out)])
                     for number in range(1, count + 1))
-        return VariantSeries(tuple(variants), tuple(drawn_anew), count - len(good_values), self.own_quality.short)
+        return VariantSeries(tuple(variants), tuple(drawn_anew), count - len(given_out),
+                             len(given_out) - len(good_values), wording.remark, self.own_quality.short)
 
     def _too_wide(self, wording: Wording, count: int, good_values: Sequence[Values],
                   drawn_anew: Sequence[tuple[int, Values, Flaw]]) -> Refused:
@@ -339,6 +433,11 @@ class SeriesDesign(ABC):
                                "a narrower range, or a larger --paper")
         kind = Counter(wrong.kind for _, _, wrong in drawn_anew).most_common(1)[0][0]
         return Refused(f"{self.source.name}: vary", f"{few}; mostly {kind}", "narrower ranges, or a larger --paper")
+
+
+def _count_good(outcomes: Iterable[Any]) -> int:
+    """How many variants have no flaw."""
+    return sum(not isinstance(outcome, Flaw) for outcome in outcomes)
 
 
 @dataclass(frozen=True)
@@ -358,23 +457,18 @@ class SceneDesign(SeriesDesign):
     source = scene
 
     def common_wording(self, pilots: Sequence[Values], number: int) -> tuple[Wording, Sequence[Any]]:
-        """Wording with the scales of the class: the first of some that enough of the first variants fit, else what most
-        fit."""
-        best: tuple[int, Wording, Sequence[Any]] | None = None
-        tried: list[Keys] = []
-        for keys in self._proposals(pilots, number):
-            if keys in tried:
-                continue
-            tried.append(keys)
-            wording = self.wording(keys)
-            found = [*self.assess(wording, number, pilots)]
-            fitting = sum(not isinstance(flaw, Flaw) for flaw in found)
-            if best is None or fitting > best[0]:
-                best = fitting, wording, found
-            if fitting >= measures.MIN_FITTING_SHARE * len(pilots):
-                break
-        assert best is not None
-        return best[1:]
+        """The class's paper and scales; or its paper alone, where scales for all would reject half of the first
+        variants, and scales of their own fewer."""
+        common, found = self._common_scales(pilots, number)
+        if 2 * _count_good(found) < len(pilots):
+            free = self.wording(sheet_keys(self.scene, None, self.drafted.composition.arrangement.paper))
+            found_so = [*self.assess(free, number, pilots)]
+            good, good_so = _count_good(found), _count_good(found_so)
+            if good_so > good:
+                remark = (f"each has scales of its own: of {len(pilots)} variants {good_so} are good so, and {good} at "
+                          "the same scales")
+                return replace(free, remark=remark), found_so
+        return common, found
 
     @property
     def own_quality(self) -> Quality:
@@ -390,6 +484,17 @@ class SceneDesign(SeriesDesign):
         """The scene's words with these keys in [sheet]."""
         return Wording(self.scene.text, self.scene.title, keys, self.tongue)
 
+    def _common_scales(self, pilots: Sequence[Values], number: int) -> tuple[Wording, Sequence[Any]]:
+        """The wording with the scales of the class, and what is found for the first variants: the first of some that
+        enough fit, else what most fit."""
+        tried = list[tuple[Wording, Sequence[Any]]]()
+        for wording in map(self.wording, self._proposals(pilots, number)):
+            if all(wording != other for other, _ in tried):
+                tried.append((wording, [*self.assess(wording, number, pilots)]))
+            if _count_good(tried[-1][1]) >= measures.MIN_FITTING_SHARE * len(pilots):
+                break
+        return max(tried, key=lambda one: _count_good(one[1]))
+
     def _proposals(self, pilots: Sequence[Values], number: int) -> Iterator[Keys]:
         """The scales of the scene's own sheet; then by how large the other plans of most good variants are drawn at its
         scale of lengths, and at the next coarser one."""
@@ -402,8 +507,8 @@ class SceneDesign(SeriesDesign):
                                   scales_of_scene.k_s if sheet.k_s or sheet.k_v or sheet.k_F else float(coarser))):
             scales = replace(scales_of_scene, k_s=k_s)
             free = self.wording(sheet_keys(self.scene, scales, paper, multiples=False))
-            variant_multiples = [multiples for multiples in self.assess(free, number, pilots)
-                                 if not isinstance(multiples, Flaw)]
+            variant_multiples = [fit.multiples for fit in self.assess(free, number, pilots)
+                                 if isinstance(fit, FitVariant)]
             plans = [plan
                      for plan in scales_of_scene.multiples if all(plan in multiples for multiples in variant_multiples)]
             ordered = {plan: sorted(multiples[plan] for multiples in variant_multiples)

@@ -52,30 +52,21 @@ def read_scan(path: Path, printed: Sheet, frames: Frames, code: int | None = Non
 
     Fails with `Refused` where the file is no picture, or not one of this page.
     """
-    return _page_submission(read_page(path, printed, code), f"{path}", frames)
-
-
-def read_picture(image: Grey, name: str, printed: Sheet, frames: Frames, code: int | None = None) -> Submission:
-    """Read a drawing in a picture; fails as `read_scan`. Fails as `read_scan`."""
-    return _page_submission(_pencil_page(image, printed, code, name), name, frames)
-
-
-def _page_submission(page: PencilPage, name: str, frames: Frames) -> Submission:
-    """Submission of a page: dots alone are specks on a blank page."""
-    if all(trace.kind == POINT for trace in page.traces):
-        return Submission(Path(name).name, (), shows=SHOWS, frames=frames)
-    return Submission(Path(name).name, page.traces, shows=SHOWS, frames=frames, page=page)
-
-
-def read_page(path: Path, printed: Sheet, code: int | None = None) -> PencilPage:
-    """The pencil on a printed page, which can be asked for what is expected on it. Fails as `read_scan`."""
     refused: Refused | None = None
     for image in read_pictures(path):
         try:
-            return _pencil_page(image, printed, code, f"{path}")
+            return read_picture(image, f"{path}", printed, frames, code)
         except Refused as this:
             refused = this
     raise refused or Refused(f"{path}", "the document has no pages", "hand in a scan of the sheet")
+
+
+def read_picture(image: Grey, name: str, printed: Sheet, frames: Frames, code: int | None = None) -> Submission:
+    """Read a drawing in a picture, in which dots alone are specks; fails as `read_scan`."""
+    page = _pencil_page(image, printed, code, name)
+    if all(trace.kind == POINT for trace in page.traces):
+        return Submission(Path(name).name, (), shows=SHOWS, frames=frames)
+    return Submission(Path(name).name, page.traces, shows=SHOWS, frames=frames, page=page)
 
 
 def _pencil_page(image: Grey, printed: Sheet, code: int | None, name: str) -> PencilPage:
@@ -101,8 +92,6 @@ def _straighten_either_way(image: Grey, printed: Sheet, light: Light, scale: flo
             mirror = np.array([[-1, 0, image.shape[1] - 1], [0, 1, 0], [0, 0, 1]], float)
             return straight, replace(registered, warp=replace(registered.warp, plane=mirror @ registered.warp.plane))
         raise refused
-
-
 
 
 @dataclass(frozen=True)

@@ -282,12 +282,12 @@ def _with_facts_apart(paper: str, divide: Divide, space: Rect, title: Rect, fact
         yield from [apart] if apart.share >= MIN_PLANS_SHARE else ()
 
 
-def words_page(paper: str, frame: SheetFrame, title: TitleBlock) -> Arrangement:
-    """A page of words alone."""
+def words_page(paper: str, frame: SheetFrame, title: TitleBlock, *, in_columns: bool = True) -> Arrangement:
+    """A page of words alone, in columns or across the page."""
     wide, high = sheet_size(paper)
     space, column = frame.space(wide, high), letter_sizes(paper).times * COLUMN_MM
     page = Arrangement(paper, wide, high, space, {}, (), lower_right(space, column + GUTTER_MM, title.on_paper(paper)))
-    return replace(page, columns=page.further_columns)
+    return replace(page, columns=page.further_columns if in_columns else _columns(space, 1, page.title))
 
 
 Division = tuple[Rect, tuple[Rect, ...], Corner]

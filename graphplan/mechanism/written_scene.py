@@ -113,7 +113,8 @@ def _is_decimal(number: Fraction) -> bool:
 def with_value(tables: Mapping[str, Any], path: str, value: object) -> dict[str, Any]:
     """The tables with another value at a path, such as points.A.angle, links.2 or drive.0.omega.
 
-    In a list * is each place. The last key may be new, and so may a table of the whole scene; fails with `Refused` where nothing else leads there.
+    In a list * is each place. The last key may be new, and so may a table of the whole scene; fails with `Refused`
+    where nothing else leads there.
     """
     first, *more = path_parts(path) or ("",)
     if not more:

@@ -28,7 +28,7 @@ LIMITS = {
     "imports, % of the lines of code": 10.5,
     "lines of the longest file": 800,
     "numeric constants": 1150,
-    "tokens": 955_000,
+    "tokens": 961_000,
 }
 
 

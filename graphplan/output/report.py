@@ -19,7 +19,7 @@ from graphplan.check.cycle import Cycle
 from graphplan.cycle.swings import pivot_or_guide, swings, transmissions
 from graphplan.kernel.passes import Drawing
 from graphplan.kernel.program import Panel, Program
-from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import FRAME, Scene
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import WORDS, kind_of
 from graphplan.methods.panels import MECHANISM
@@ -34,7 +34,7 @@ from graphplan.sheet.lettering.letters import mechanism_wishes
 from graphplan.sheet.panels import COLUMN_MM, PanelFigure, PanelPage, PanelSheet, Words, column, fit_view
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.annotations import GivenArrows
-from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Sheet, Text
+from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Sheet, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.plans import bounding_box
 from graphplan.sheet.plates.traced_motion import TracedMotion
@@ -53,7 +53,7 @@ DIAGRAMS_A_PAGE, LEAST_ROWS = 4, 2  # at most, and as if there were so many at l
 SAMPLE_MM, LINE_MM = 6.0, 5.0  # of a legend: a curve's sample, which entries are apart as well, and from line to line
 MARGIN_MM, TABLE_GAP_MM = 12.0, 6.0  # about the mechanism and a polar diagram, and over a table of positions
 DOT_MM, MIN_NUMBER_GAP_MM = 0.8, 5.0  # of marks on a curve: the radius, and between their numbers
-ROOM_OVER = 0.06  # of the height of a diagram: free over and under its curves
+ROOM_OVER, MAX_RATIO = 0.06, 10.0  # of a diagram's height: free over its curves; times most values: what is shown
 EFFICIENCY_ENDS = -1.05, 1.05  # a machine near to locking itself has far lower ones
 NO_STEPS = Drawing(Program((), ())).mark_values()
 
@@ -80,12 +80,12 @@ class CycleReport:
     def pages(self, construction: Callable[[int, int], Sequence[Sheet]], count: int) -> list[Sheet]:
         """All pages, among them so many of the construction, which are asked for with the numbers of pages before them
         and after."""
-        parts = self._plate, self._diagrams, self._bearing, self._positions
-        counts = [len(part(1, 0)) for part in parts]
+        sections = self._plate, self._diagrams, self._bearing, self._positions
+        counts = [len(section(1, 0)) for section in sections]
         of, first = sum(counts) + count, counts[0] + count + 1
         pages = [*self._plate(1, of), *construction(counts[0], of - counts[0] - count)]
-        for part in parts[1:]:
-            pages += part(first, of)
+        for section in sections[1:]:
+            pages += section(first, of)
             first = len(pages) + 1
         return pages
 
@@ -140,12 +140,12 @@ class CycleReport:
         """The plate: the mechanism in its positions, what is given, and what is found over the cycle."""
         machine = machine_facts(self.cycle.scene)
         topics = {fact.topic for fact in machine}
-        given = [fact for fact in given_facts(self.drawing.mechanism) if fact.topic not in topics]
+        dimensions = [fact for fact in given_facts(self.drawing.mechanism) if fact.topic not in topics]
         remarks = drawing_remarks(self.drawing, Deviations())
         window = self._window(PanelPage(PAPER, self.scene, column((1.0, MECHANISM))).room(MECHANISM))
         sheet = self._sheet(MECHANISM, first, of, partial(self._mechanism, window), [*self._cycle_words()],
                             ratio(1 / window.scale, self.scene.units.length))
-        return replace(sheet, given=[*topic_texts((*given, *machine)), *remarks],
+        return replace(sheet, given=[*topic_texts((*dimensions, *machine)), *remarks],
                        tables=[self._extremes(self.quantities)]).pages() or []
 
     def _diagrams(self, first: int, of: int) -> list[Sheet]:
@@ -203,8 +203,9 @@ class CycleReport:
     def _window(self, room: Rect) -> View:
         """The mechanism at a round scale, with all that it reaches."""
         points = [z[np.isfinite(z)] for z in self.cycle.turn.points.values()]
-        places = np.concatenate([*points, [complex(*map(float, at)) for at in self.scene.points.values()]])
-        return fit_view(bounding_box([*zip(places.real.tolist(), places.imag.tolist(), strict=True)]), room, MARGIN_MM)
+        points.append(np.array([complex(*map(float, at)) for at in self.scene.points.values()]))
+        corners = [(z.real, z.imag) for z in np.concatenate(points).tolist()]
+        return fit_view(bounding_box(corners), room, MARGIN_MM)
 
     def _mechanism(self, window: View, page: PanelPage) -> PanelFigure:
         """The mechanism with its loads in the given pose, in its positions, and the paths of points that are asked
@@ -214,11 +215,20 @@ class CycleReport:
         positions = tuple({name: (z[k].real, z[k].imag) for name, z in turn.points.items()} for k in reached)
         paths = [item for z in self.cycle.requested_points.values() for item in stroke_curve(
             [window.spot(place) for place in self._close_turn(z)], window.rect, pens.PATH)]
-        arrows = [*GivenArrows(mechanism, page.tongue)]
+        arrows, driven = [*GivenArrows(mechanism, page.tongue)], self.scene.drives[0].link
+        pins = [name for name in self.scene.links[driven] if FRAME not in self.scene.links_of[name]]
+        numbers = _numbers(map(window.spot, turn.points[pins[0]][:: self.between]), window.rect) if pins else []
         return PanelFigure(
             window.rect, strokes=[*TracedMotion((), positions).faint(self.scene, window), *paths, *mechanism.items(),
                                   *(item for drawn, _ in arrows for item in drawn)],
-            wishes=[*mechanism_wishes(mechanism), *(value for _, value in arrows)])
+            wishes=[*mechanism_wishes(mechanism), *(value for _, value in arrows), *numbers])
+
+    def _usual(self, values: Any) -> Any:
+        """The values for which a diagram must have room: between limits, where rates and forces grow beyond all bounds,
+        those that are not many times as large as most."""
+        finite = values[np.isfinite(values)]
+        bound = MAX_RATIO * np.median(np.abs(finite)) if finite.size and not self.cycle.turn.closed else 0.0
+        return finite[np.abs(finite) <= bound] if bound else finite
 
     def _curves(self, groups: Sequence[Sequence[CycleQuantity]], page: PanelPage) -> PanelFigure:
         """Diagrams under each other, each with its legend."""
@@ -230,14 +240,14 @@ class CycleReport:
             legend = [*_legend(group, page, room, top - LINE_MM)]
             lines = 1 + len({item.at[1] for item in legend if isinstance(item, Text)})
             rect = Rect(room.left, top - high + FOOT + LINE_MM, room.right, top - lines * LINE_MM)
-            frame = Frame.fit_rect(rect, (float(xs[0]), float(xs[-1])), _span(group))
+            ordinates = _span([self._usual(one.values) for one in group], group[0].unit)
+            frame = Frame.fit_rect(rect, (float(xs[0]), float(xs[-1])), ordinates)
             curves = [DrawnCurve(xs, self._close_turn(one.values), pen) for one, pen in zip(group, PENS, strict=False)]
             words = [*dict.fromkeys(one.words for one in group)]
             label = join((*words, *([unit(group[0].unit)] if group[0].unit else [])))
-            last = k == len(groups) - 1
+            letter = "" if k < len(groups) - 1 else "φ" if measure == "°" else "s"
             diagrams.append(Diagram(
-                frame, QuantityAxis("φ" if measure == "°" and last else "s" if last else "", measure,
-                                    turns=measure == "°", scaled=False),
+                frame, QuantityAxis(letter, measure, turns=measure == "°", scaled=False),
                 QuantityAxis(str(words[0]), label=label, shift=(0.0, (lines - 1) * LINE_MM)), curves))
             strokes += [*legend, *self._largest_marks(frame, group)]
         return PanelFigure(page.room(DIAGRAMS), diagrams, strokes=strokes)
@@ -246,23 +256,21 @@ class CycleReport:
         """A dot at the largest value of each curve."""
         for one, pen in zip(group, PENS, strict=False):
             if one.unit and (place := _place_of_largest(one.values)) is not None:
-                yield Circle(pen.with_fill(pen.colour), "links", None,
-                             frame.spot(float(self.travel[1][place]), float(one.values[place])), DOT_MM)
+                spot = frame.spot(float(self.travel[1][place]), float(one.values[place]))
+                if frame.rect.holds(spot):
+                    yield Circle(pen.with_fill(pen.colour), "links", None, spot, DOT_MM)
 
     def _polar(self, force: Any, symbol: Said | str, page: PanelPage) -> PanelFigure:
         """The ends of a force from one pole, with the numbers of the positions."""
         rect, force_unit = page.room(BEARING), self.scene.units.force
-        ends = [(0.0, 0.0), *((z.real, z.imag) for z in force[np.isfinite(force)].tolist())]
+        ends = [(0.0, 0.0), *((z.real, z.imag) for z in self._usual(force).tolist())]
         window = fit_view(bounding_box(ends), rect, MARGIN_MM)
         spots = [window.spot(z) for z in self._close_turn(force)]
         curve = [*stroke_curve(spots, rect, CURVES[0])]
-        numbers = list[Wish]()
-        for number, spot in enumerate(spots[: len(force) : self.between]):
-            if np.isfinite(spot).all():
-                curve.append(Circle(CURVES[0].with_fill(CURVES[0].colour), "links", None, spot, DOT_MM))
-                if all(math.dist(spot, wish.spots[0]) > MIN_NUMBER_GAP_MM for wish in numbers):
-                    numbers.append(Wish(sentence_runs(str(number)), (spot,), 0.8, True, pens.FAINT))
-        return PanelFigure(rect, strokes=[*page.text.rings(window, force_unit), *curve], wishes=numbers,
+        marked = spots[: len(force) : self.between]
+        curve += [Circle(CURVES[0].with_fill(CURVES[0].colour), "links", None, spot, DOT_MM) for spot in marked
+                  if np.isfinite(spot).all()]
+        return PanelFigure(rect, strokes=[*page.text.rings(window, force_unit), *curve], wishes=_numbers(marked, rect),
                            heading=arrange("{0}: {1}", BEARING.heading, symbol),
                            scales=scale_words("F", 1 / window.scale, force_unit, self.scene.sheet.convention))
 
@@ -282,6 +290,9 @@ class CycleReport:
         efficiency = self.cycle.efficiency
         if efficiency is not None and (efficiency < 0).any():
             yield said("The efficiency is negative where the loads drive, but do not overcome the friction.")
+        if faults := self.cycle.faults:
+            yield said("no results in {0} of {1} poses, first {2}", len(faults), len(self.travel[1]),
+                       next(iter(faults.values())))
         yield said("Independent checks differ by: {0}",
                    join([join((WORDS[kind], digits(gap, 2)), " ") for kind, gap in self.cycle.check.items()]))
 
@@ -304,17 +315,25 @@ def _chunks(items: Sequence[Any], size: int) -> list[Sequence[Any]]:
     return [items[k : k + size] for k in range(0, len(items), size)]
 
 
+def _numbers(spots: Iterable[Spot], rect: Rect) -> list[Wish]:
+    """The numbers of positions at their spots in a rectangle; of such as lie close together the first alone."""
+    wishes = list[Wish]()
+    for number, spot in enumerate(spots):
+        if rect.holds(spot) and all(math.dist(spot, wish.spots[0]) > MIN_NUMBER_GAP_MM for wish in wishes):
+            wishes.append(Wish(sentence_runs(str(number)), (spot,), 0.8, True, pens.FAINT))
+    return wishes
+
+
 def _place_of_largest(values: Any) -> int | None:
     """The first place of the largest size, but for rounding; None where no value is known."""
     sizes = np.abs(values)
     return int(np.argmax(sizes >= (1 - ZERO_TOL) * np.nanmax(sizes))) if np.isfinite(values).any() else None
 
 
-def _span(group: Sequence[CycleQuantity]) -> tuple[float, float]:
+def _span(curves: Sequence[Any], measure: str) -> tuple[float, float]:
     """The ordinates of a diagram: zero and all values, and a little more; of efficiencies no more than is of use."""
-    values = np.concatenate([one.values[np.isfinite(one.values)] for one in group])
-    low, high = min(0.0, *values), max(0.0, *values)
-    if not group[0].unit:
+    low, high = (float(end(np.concatenate([[0.0], *curves]))) for end in (np.min, np.max))
+    if not measure:
         low, high = max(low, EFFICIENCY_ENDS[0]), min(max(high, 1.0), EFFICIENCY_ENDS[1])
     room = ROOM_OVER * (high - low)
     return (low - room * (low < 0), high + room) if high > low else (-1.0, 1.0)

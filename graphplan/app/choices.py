@@ -110,7 +110,8 @@ def add_choices(command: argparse.ArgumentParser, *, method: bool = True, strict
             f"velocities and that of accelerations), or of centres of curvature ({', '.join(OF_PATHS)}); without it "
             "the pose chooses")
     add("--plan", default="", metavar="PLAN", help="orthogonal, polar or triangles (of gears), of the forces lever, "
-        "polygons or both, such as polar,lever; without it the lengths of the links decide, and forces have both")
+        "polygons or both, such as polar,lever; without it the lengths of the links decide, and forces have both, "
+        "or polygons where no motion is asked for")
     add_settings(command)
     if inertia:
         add("--inertia", default="", choices=INERTIA, metavar="FORM",

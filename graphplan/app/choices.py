@@ -109,7 +109,7 @@ def add_choices(command: argparse.ArgumentParser, *, method: bool = True, strict
             "best for the pose")
     add("--plan", default="", metavar="PLAN", help="plan of motion: orthogonal, polar (velocity and acceleration "
         "polygons) or triangles (of gears), by default by the lengths of the links; of forces: lever, polygons or both "
-        "(default); such as polar,lever")
+        "(default; polygons where no motion is asked for); such as polar,lever")
     add_settings(command)
     if inertia:
         add("--inertia", default="", choices=INERTIA, metavar="FORM",

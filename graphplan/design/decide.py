@@ -18,7 +18,7 @@ from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.numbers import Fractions
 from graphplan.kernel.program import evaluate
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.sections import FORCE_ORDERS
+from graphplan.mechanism.sections import FORCE_ORDERS, FORCE_PLANS
 from graphplan.methods.construction import Construction
 from graphplan.methods.design import OPEN, TEXTBOOK, Design, complete_wishes
 from graphplan.methods.draw import draw
@@ -240,12 +240,14 @@ class Alternatives:
 
 
 def _plans(scene: Scene, wishes: Design) -> Iterator[str]:
-    """The plans of the textbook's design: friction needs polygons."""
+    """The plans of the textbook's design: friction needs polygons, and forces alone no plan of velocities for a lever.
+    """
     yield wishes.motion or ("polar" if is_uneven(scene) else "orthogonal")
     if scene.loads is not None:
-        from graphplan.methods.forces.loaded import rubs
+        from graphplan.methods.forces.loaded import needs_motion, rubs
 
-        yield "both" if rubs(scene) and not wishes.polygons else wishes.forces
+        by_polygons = {*FORCE_PLANS}.isdisjoint(wishes.words) and not needs_motion(scene)
+        yield "polygons" if by_polygons else "both" if rubs(scene) and not wishes.polygons else wishes.forces
 
 
 def is_uneven(scene: Scene) -> bool:

@@ -331,6 +331,12 @@ class Find:
         return tuple(dict.fromkeys((*(self.links or ()), *self.omega)))
 
     @property
+    def asks_motion(self) -> bool:
+        """Whether anything but reactions is asked for."""
+        return any((self.velocity, self.acceleration, self.turning, self.slides, self.poles, self.curvature,
+                    self.inflection, self.acceleration_centres))
+
+    @property
     def curvature_points(self) -> dict[str, tuple[str, str]]:
         """The points on links the curvature of whose paths is asked for, by name: M on 2."""
         return {name: (point, link) for name in self.curvature for point, _, link in [name.partition(" on ")]}

@@ -82,8 +82,7 @@ class Draughtsman:
             poles.draw(self.scene.find.poles)
             self.unplanned = 0 if self.scene.loads else len(self.board.steps)
             velocity.pole_of = poles.mark
-        find = self.scene.find
-        if self.scene.loads or find.velocity or find.acceleration or find.turning or find.slides or find.poles:
+        if self._needs_velocities:
             velocity.draw(self.velocity_moves)
         self._points(velocity, kinds.VELOCITY, self.scene.find.velocity)
         self._links(velocity, kinds.OMEGA, self.scene.find.velocity)
@@ -93,6 +92,12 @@ class Draughtsman:
             self._poles(poles)
             self.circle = poles.circle
         return self.finish(velocity, plan)
+
+    @property
+    def _needs_velocities(self) -> bool:
+        """Whether velocities are drawn before all else; the curvature of paths begins them where it needs them."""
+        find = self.scene.find
+        return bool(find.velocity or find.acceleration or find.turning or find.slides or find.poles)
 
     def _poles(self, poles: Poles) -> None:
         """The instant centres that are asked for, but for links that do not move relative to each other."""

@@ -138,11 +138,22 @@ class ForcePolygon(FreeBodies):
         why = said("moments of {0} about {1}", list_links(self._in_order(part)), self._moment_centre_text(about))
         for force in self.acting(part, self.other_forces(part, site), site):
             if force.at is not pole:
-                mark = weigh(force.at, *with_sign((force.tail, force.head), -sign if backwards else sign), mark,
-                             why=why)
+                span = with_sign((force.tail, force.head), -sign if backwards else sign)
+                balance = self._opposite if self._is_square(part, force, pole, X) else weigh
+                mark = balance(force.at, *span, mark, why=why)
         if mark is first:
             return None
         return (mark, first) if backwards else (first, mark)
+
+    def _is_square(self, part: Part, force: Acting, pole: Mark | None, X: Mark) -> bool:
+        """Whether a force at X is perpendicular to its way to the pole: that of a couple with its answer there."""
+        return any(force is one and one.at is X and other.at is pole for link in part
+                   for pair in self.couples[link] for one, other in (pair, pair[::-1]))
+
+    def _opposite(self, at: Mark, tail: Mark, head: Mark, base: Mark, why: str = "") -> Mark:
+        """The end of the opposite of a couple's force, laid off from a mark: with the same arm it has the opposite
+        moment."""
+        return self.board.transfer(head, tail, base, why=said("the opposite couple has the same arm"))
 
     def _weighing(self, about: statics.About, X: Mark) -> tuple[Mark | None, Callable[..., Mark]]:
         """The point that moments are taken about, if it is a mark, and how a moment is weighed at X."""
@@ -183,7 +194,8 @@ class ForcePolygon(FreeBodies):
         mark = first = self.polygon(part)[1]
         for force in self.acting(part, self.other_forces(part, site), site):
             if force.at is not Y:
-                mark = self.board.balance(Y, R, force.at, *with_sign((force.tail, force.head), sign), mark)
+                balance = self._opposite if self._is_square(part, force, Y, R) else partial(self.board.balance, Y, R)
+                mark = balance(force.at, *with_sign((force.tail, force.head), sign), mark)
         return None if mark is first else (Acting(R, first, mark), Acting(Y, mark, first))
 
     def _record_moment(self, part: Part, site: Balance, Y: Mark, sign: int) -> None:

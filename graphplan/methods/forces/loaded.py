@@ -55,6 +55,10 @@ class Loaded(Draughtsman):
         self.without_lines: list[str] = []
         self.rounds = 0
 
+    @property
+    def _needs_velocities(self) -> bool:
+        return self.design.lever or needs_motion(self.scene)
+
     def finish(self, velocity: Velocity, plan: Normal | None) -> Construction:
         """Motion and forces; the accelerations are drawn for inertia forces, too."""
         if plan is None and self.loads.masses:
@@ -221,6 +225,13 @@ class Loaded(Draughtsman):
         self.shown += shown
         for kind, of, marks in found:
             self.read(kind, of, *marks)
+
+
+def needs_motion(scene: Scene) -> bool:
+    """Whether velocities are asked for, or the forces of polygons need them: for inertia, friction and screws."""
+    assert scene.loads is not None
+    loads = scene.loads
+    return bool(scene.find.asks_motion or scene.repeating or loads.masses or loads.screws or rubs(scene))
 
 
 def rubs(scene: Scene) -> bool:

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from importlib import import_module
-from importlib.resources import files
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from graphplan.phrases import Said
@@ -75,7 +75,7 @@ class Leaf:
 @cache
 def leaves() -> Mapping[str, Leaf]:
     """The leaves that are there, by the package of each."""
-    folders = sorted(folder.name for folder in files(__package__).iterdir()
+    folders = sorted(folder.name for folder in Path(__file__).parent.iterdir()
                      if folder.is_dir() and folder.joinpath("leaf.py").is_file())
     return {f"{__package__}.{name}": import_module(f"{__package__}.{name}.leaf").LEAF for name in folders}
 

@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from graphplan.accuracy.expected import Result, at_other_scales, control_errors, first_order, worst_error
-from graphplan.design.cost import reading_variances
+from graphplan.accuracy.expected import Result, control_errors, first_order, worst_error
 from graphplan.design.hand import Hand, Pencil, hand
 from graphplan.kernel.drawn import crossing
 from graphplan.kernel.kinds import DIVIDERS, POINT, SET_SQUARES
@@ -283,15 +282,12 @@ def draft(drawing: Construction, pencil: Pencil, paper: str | None = None,
     `Refused` where plans or words do not fit the paper named.
     """
     composer = Composer(drawing, paper, check, tongue, protocol, motion or shown_motion(drawing.scene), lettered)
-    on_panels = hand(drawing, composer.usual.lengths_per_mm, pencil)
-    found = reading_variances(drawing, on_panels)
-    usual = first_order(drawing, on_panels, composer.usual, found)
+    usual = first_order(drawing, hand(drawing, composer.usual.lengths_per_mm, pencil), composer.usual)
     shortest_mm = shortest_link(composer.plans) / composer.usual.lengths_per_mm(MECHANISM)
     expected = Errors(drawing, pencil, usual, near_singular(drawing, usual, pencil.point / shortest_mm))
     composition = composer.choose(expected.deviations, worst_error(usual, composer.plans.plan_of_step, composer.usual))
     scales = composition.scales
-    on_sheet = hand(drawing, scales.lengths_per_mm, pencil)
-    results = first_order(drawing, on_sheet, scales, at_other_scales(found, on_panels, on_sheet))
+    results = first_order(drawing, hand(drawing, scales.lengths_per_mm, pencil), scales)
     composition = composer.with_texts(composition, replace(expected, results=results).deviations)
     return Drafted(drawing, pencil, results, expected.near_singular, composition)
 

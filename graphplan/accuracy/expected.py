@@ -10,12 +10,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphplan.design.cost import Variances, reading_errors, readings
+from graphplan.design.cost import reading_errors, readings
 from graphplan.design.hand import UNBOUNDED, Hand, draw_with_slips, variances
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.gradients import Gradients
@@ -74,26 +73,16 @@ class Result(NamedTuple):
         return self.relative * self.part_of(steps) if self.relative and math.isfinite(self.relative) else 0.0
 
 
-def first_order(drawing: Construction, hand: Hand, scales: Scales, found: Variances | None = None
-                ) -> tuple[Result, ...]:
-    """The expected error of every result, as the hand draws the construction at these scales; the variances may be
-    found already."""
+def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Result, ...]:
+    """The expected error of every result, as the hand draws the construction at these scales."""
     plan_of_step, results = drawing.plan_of_step, list[Result]()
-    for reading, off, relative, shares in reading_errors(drawing, hand, found):
+    for reading, off, relative, shares in reading_errors(drawing, hand):
         marks = [drawing.drawn.wanted[position] for position in reading.marks]
         of_mm = _of_mm(reading.kind, [hand.values[index] for index in marks], scales, plan_of_step[marks[-1]])
         subject = thing_named(drawing.scene, reading.kind, reading.of)
         deviation = Deviation(off, off / of_mm if of_mm else None)
         results.append(Result(reading.kind, reading.of, subject, deviation, relative, shares))
     return tuple(results)
-
-
-@UNBOUNDED
-def at_other_scales(found: Variances, hand: Hand, other: Hand) -> Variances:
-    """The variances of readings that another hand draws, which slips otherwise by the scales of the plans alone."""
-    before, after = (np.array([*chain.from_iterable(one.slips)]) for one in (hand, other))
-    times = np.square(np.divide(after, before, out=np.ones(len(before)), where=before > 0))
-    return [(reading, squares * times) for reading, squares in found]
 
 
 def worst_error(results: Sequence[Result], plan_of_step: Sequence[Panel],

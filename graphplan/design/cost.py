@@ -46,24 +46,16 @@ class ReadingError(NamedTuple):
     shares: tuple[float, ...]
 
 
-Variances = list[tuple[Reading, Any]]  # of each reading that is drawn, by each slip of a hand
-
-
 @UNBOUNDED
-def reading_variances(drawing: Construction, hand: Hand) -> Variances:
-    """The variance of every reading that is drawn, to first order, by each slip of the hand."""
+def reading_errors(drawing: Construction, hand: Hand) -> list[ReadingError]:
+    """The expected error of every reading, to first order, as the hand draws the construction."""
     domain, values = draw_with_slips(hand)
-    return [(reading, variances(domain, value)) for reading, _, value in readings(drawing, values, domain)
-            if reading.marks]
-
-
-@UNBOUNDED
-def reading_errors(drawing: Construction, hand: Hand, found: Variances | None = None) -> list[ReadingError]:
-    """The expected error of every reading, to first order, as the hand draws the construction; the variances may be
-    found already."""
     owner = np.repeat(np.arange(len(hand.slips)), [len(slips) for slips in hand.slips])
     largest, errors = largest_values(drawing, hand.values), list[ReadingError]()
-    for reading, squares in reading_variances(drawing, hand) if found is None else found:
+    for reading, _, value in readings(drawing, values, domain):
+        if not reading.marks:
+            continue  # it is given, not drawn
+        squares = variances(domain, value)
         off = math.sqrt(float(np.sum(squares)))
         if math.isinf(off):
             squares = np.isinf(squares)

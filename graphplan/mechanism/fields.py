@@ -173,15 +173,17 @@ class SceneItem:
             return self.fault("commas between points", 'points separated by blanks alone, such as "A B"')
         names = text.split()
         before = len(self.faults)
-        from graphplan.mechanism.slips import names_in
-
         for name in dict.fromkeys(names):
-            if name not in known and len(apart := names_in(name, known)) > 1:
+            if name in known:
+                if names.count(name) > 1:
+                    self.fault(f"point {name} is named twice", "each point once")
+                continue
+            from graphplan.mechanism.slips import names_in  # few scenes have faults
+
+            if len(apart := names_in(name, known)) > 1:
                 self.fault(f"there is no point {name}", f'perhaps "{" ".join(apart)}", with blanks')
-            elif name not in known:
+            else:
                 self.faults.unknown(self.where, "point", name, known)
-            elif names.count(name) > 1:
-                self.fault(f"point {name} is named twice", "each point once")
         return tuple(names) if len(self.faults) == before else None
 
     def two_points(self, known: Collection[str], such: str) -> str | None:

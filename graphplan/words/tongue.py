@@ -11,7 +11,7 @@ import re
 import tomllib
 from collections.abc import Iterator, Mapping
 from functools import cache
-from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 from graphplan.errors import Refused
@@ -129,7 +129,7 @@ def catalogue(code: str) -> dict[str, Section]:
     """The catalogue of a language, section by section."""
     sections: dict[str, dict[str, str]] = {}
     lines: dict[str, str] = {}
-    for line in files(__package__).joinpath(f"{code}.toml").read_text("utf-8").splitlines():
+    for line in Path(__file__).with_name(f"{code}.toml").read_text("utf-8").splitlines():
         if entry := _ENTRY.match(line):
             lines[entry[1] or entry[2]] = line[entry.end() :]
         elif line.startswith("["):

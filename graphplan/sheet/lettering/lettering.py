@@ -12,9 +12,9 @@ import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.resources import files
 from itertools import chain, groupby
 from operator import attrgetter
+from pathlib import Path
 from typing import NamedTuple
 
 from graphplan.mechanism.units import iso_size
@@ -32,7 +32,7 @@ TIE = "\u00a0"  # a space at which no line is broken
 _INSIDE_ITEM = re.compile(r"(?<![,:]) | (?=[^()]*\))")
 _BY_SHORT_WORD = re.compile(r"(?<=\d) (?=[^\W\d])|(?<=[^\W\d]\.) (?=\d)|(?<==) | (?==|\S{1,4}$)")
 _IN_EQUATION = re.compile(r"(?<==) | (?==)|(?<=\d) (?=mm\b)")
-_LETTERS = tomllib.loads(files(__package__).joinpath("letters.toml").read_text(encoding="utf-8"))
+_LETTERS = tomllib.loads(Path(__file__).with_name("letters.toml").read_text(encoding="utf-8"))
 GREEK: dict[str, str] = _LETTERS["greek"]
 ADVANCE = {char: int(width) / 1000 for width, chars in _LETTERS["advances"].items() for char in chars}
 _BOLD = 1.25  # DejaVu Sans Bold is wider than the book weight by at most this

@@ -89,8 +89,7 @@ def run(options: argparse.Namespace) -> int:
     scene = members[0].scene
     workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
     messages = Messages(options.quiet)
-    how: Any = {"wishes": Design(options.plan, inertia=scene.sheet.inertia), "workers": workers,
-                "machine": options.compiled,
+    how: Any = {"wishes": Design(inertia=scene.sheet.inertia), "workers": workers,
                 "progress": lambda what, done, of: messages.progress(f"{what}: {done} of {of}" if done < of else "")}
     if options.output not in (None, STANDARD) and not options.plot:
         return MotionReport(scene, options.positions).write_table(

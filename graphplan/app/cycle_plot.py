@@ -233,7 +233,7 @@ def _check_names(scene: Scene, options: argparse.Namespace) -> None:
     from graphplan.methods.design import Design
     from graphplan.output.tables import named_quantities
 
-    drawing = general_construction(scene, Design(options.plan, inertia=scene.sheet.inertia))
+    drawing = general_construction(scene, Design(inertia=scene.sheet.inertia))
     points = {name: np.zeros(1, complex) for name in (*scene.find.velocity, *scene.find.acceleration,
                                                       *scene.sheet.curves)}
     rubs = bool(scene.loads and scene.loads.frictions)

@@ -53,8 +53,8 @@ class Results(NamedResults[complex, float]):
 
     @property
     def reactions(self) -> NamedValues[complex]:
-        """Reactions, complex, in the scene's unit of force: on a link at a joint, such as `2 at B`; on the first link of
-        a slide, gear or contact, by its name."""
+        """Reactions, complex, in the scene's unit of force: on a link at a joint, such as `2 at B`; on the first link
+        of a slide, gear or contact, by its name."""
         def name(entry: Mapping[str, Any]) -> str:
             return next((entry[sort] for sort in ("slide", "gear", "strand", "contact") if sort in entry),
                         f"{entry['on']} at {entry.get('at')}")

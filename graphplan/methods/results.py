@@ -190,13 +190,13 @@ class NamedResults(ABC, Generic[V, N]):
 
     @property
     def poles(self) -> NamedValues[V]:
-        """Instant centres, such as `2 frame`, complex, in scene lengths; one at infinity is nan, or left out if drawn."""
+        """Instant centres, such as `2 frame`, complex, in scene lengths; at infinity nan, or left out if drawn."""
         return NamedValues(self.results_of_kind(kinds.POLE), "pole")
 
     @property
     def curvature(self) -> NamedValues[V]:
-        """Centres of curvature of paths, such as that of `M on 2`, complex, in scene lengths; one at infinity is nan, or
-        left out if drawn."""
+        """Centres of curvature of paths, such as that of `M on 2`, complex, in scene lengths; at infinity nan, or left
+        out if drawn."""
         return NamedValues(self.results_of_kind(kinds.CENTRE), "centre of curvature")
 
     @property

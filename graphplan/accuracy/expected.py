@@ -1,22 +1,19 @@
 """Expected errors of the results of a construction on its sheet, in their units and in mm of paper.
 
-Many hands that draw the same construction leave nothing of second order out. Where all crossings are good they scatter
-as the first order says. Where curves cross too flat for the pencil, some do not get them to meet, and the others
-scatter less or more: the ratio, and the part of the hands that miss, tell how far the first order may be trusted.
+They are of first order in the errors of the pencil. Where curves cross at too small an angle for the pencil, real
+drawings scatter otherwise, and some of the curves do not meet.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphplan.design.cost import reading_errors, readings
+from graphplan.design.cost import reading_errors
 from graphplan.design.hand import UNBOUNDED, Hand, draw_with_slips, variances
-from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
@@ -24,14 +21,10 @@ from graphplan.mechanism.units import CURVING, HEADING, LENGTH, PLACE
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, FORCES, VELOCITY, ResultKind
 from graphplan.methods.panels import MECHANISM
-from graphplan.methods.recorded import components
 from graphplan.methods.results import Control, thing_named
 from graphplan.phrases import Said, join, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.words.rows import Deviation
-
-HANDS = 4000  # the scatter is then known to about one part in a hundred
-SEED = 1939
 
 
 class Result(NamedTuple):
@@ -135,41 +128,3 @@ def _of_mm(kind: ResultKind, marks: Sequence[Any], scales: Scales, panel: str) -
     measures = {VELOCITY: scales.speed, ACCELERATION: scales.acceleration, FORCES: scales.force}
     scale = scales.lengths_per_mm(panel) if kind.dimension in (LENGTH, PLACE) else measures[kind.group](panel)
     return scale / math.dist(marks[0], marks[1]) if kind.turning else scale
-
-
-@dataclass(frozen=True)
-class Spread:
-    """The mean of a result, its components if it is a vector, and its standard deviation."""
-
-    mean: tuple[float, ...]
-    deviation: float
-
-
-@dataclass(frozen=True)
-class Scatter:
-    """Scatter of every result, by kind and name, and the share of the hands that could not draw one of them."""
-
-    results: Mapping[str, Mapping[str, Spread]]
-    missed: float
-
-
-def sample_hands(drawing: Construction, hand: Hand, hands: int = HANDS) -> Scatter:
-    """Scatter of the results of many hands."""
-    normal = np.random.default_rng(SEED).normal
-    results: dict[str, dict[str, Spread]] = {}
-    missed = np.zeros(hands, dtype=bool)
-    with np.errstate(all="ignore"):
-        domain = Arrays()
-        values = hand.draw(domain, lambda step: [normal(0.0, deviation, hands) for deviation in hand.slips[step]],
-                           lambda step: [np.full(hands, np.nan) for _ in hand.values[step]])
-        for reading, _, value in readings(drawing, values, domain):
-            if not reading.marks:
-                continue  # it is given, not drawn
-            samples = np.broadcast_arrays(*components(value), missed)[:-1]
-            missed = missed | np.isnan(samples).any(axis=0)
-            mean, variance = np.nanmean(samples, axis=1), np.nanvar(samples, axis=1)
-            spread = Spread(tuple(mean.tolist()), float(variance.sum() ** 0.5))
-            results.setdefault(reading.kind, {})[reading.of] = spread
-    return Scatter(results, float(missed.mean()))
-
-

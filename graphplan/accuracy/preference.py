@@ -263,10 +263,6 @@ LEGEND = ("S, E: Lemoine's simplicity and exactitude. Instrument changes: how of
           "their plans. Relative error: relative to the largest value of its kind.")
 
 
-def legend() -> list[str]:
-    """Explanation of the tables' columns."""
-    return ["", *textwrap.wrap(LEGEND, TABLE_WIDTH)]
-
 
 def align_columns(rows: Sequence[Sequence[str]]) -> list[str]:
     """Rows as lines, their columns as wide as they need be: the first to the left, the others to the right."""

@@ -210,7 +210,7 @@ class MotionSeries(NamedResults[Any, Any]):
 
     @cached_property
     def efficiency(self) -> Any:
-        """The instantaneous efficiency in each pose of a motion; None of a machine without friction."""
+        """Instantaneous efficiency in each pose of a motion, shape (n,), 1 without losses; None without friction."""
         return efficiency_of(self.scene, self.poses.turn, self.results) if self.poses is not None else None
 
     @cached_property

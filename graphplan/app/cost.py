@@ -9,6 +9,7 @@ examples:
 from __future__ import annotations
 
 import argparse
+import textwrap
 from functools import partial
 from itertools import product
 
@@ -25,10 +26,11 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     from graphplan.accuracy.drafted import shown_motion
     from graphplan.accuracy.preference import (
+        LEGEND,
+        TABLE_WIDTH,
         Comparison,
         constructions,
         forms,
-        legend,
         plans_alone,
         strict_constructions,
     )
@@ -54,6 +56,7 @@ def run(options: argparse.Namespace) -> int:
         write(as_json(data))
     else:
         tables = [line for comparison in comparisons for line in comparison.lines()]
-        lines = [scene.title, f"Pencil, standard deviations: {hand.description}.", *tables, *legend()]
+        lines = [scene.title, f"Pencil, standard deviations: {hand.description}.", *tables, "",
+                 *textwrap.wrap(LEGEND, TABLE_WIDTH)]
         write("\n".join(lines) + "\n")
     return 0

@@ -53,8 +53,8 @@ class Results(NamedResults[complex, float]):
 
     @property
     def reactions(self) -> NamedValues[complex]:
-        """The reactions: the force on a link at a joint, such as `2 at B`, on the first link of a slide, gear or
-        contact by its name."""
+        """Reactions, complex, in the scene's unit of force: on a link at a joint, such as `2 at B`; on the first link
+        of a slide, gear or contact, by its name."""
         def name(entry: Mapping[str, Any]) -> str:
             return next((entry[sort] for sort in ("slide", "gear", "strand", "contact") if sort in entry),
                         f"{entry['on']} at {entry.get('at')}")
@@ -69,7 +69,7 @@ class Results(NamedResults[complex, float]):
 
     @property
     def check(self) -> Frozen[str, float]:
-        """The largest difference from the analytic solver, relative to what a number is made of, by kind."""
+        """Largest difference from the analytic solver by kind, relative to the largest term of the number."""
         return Frozen(self._data.get("check", {}))
 
     def json(self) -> dict[str, Any]:
@@ -103,7 +103,7 @@ class Results(NamedResults[complex, float]):
         return self.json()
 
     def results_of_kind(self, kind: str) -> dict[str, Any]:
-        """The results of a kind, nan of one that does not exist."""
+        """Results of a kind by name, in the units of the scene; nan if one does not exist."""
         printed = kind_of(kind)
         return {name: _number(entry and entry.get(printed.key), vector=not printed.single)
                 for name, entry in self._data.get(printed.table, {}).items()

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.app.choices import add_choices, add_preference, add_travel, load_scene
+from graphplan.app.choices import add_choices, add_pencil, add_preference, add_travel, load_scene
 from graphplan.app.files import write
 from graphplan.app.results import find_results
 
@@ -27,6 +27,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add_choices(command, inertia=True)
     add_travel(command)
     add_preference(command)
+    add_pencil(command)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -105,20 +105,19 @@ def requested_points(scene: Scene, turn: Turn) -> dict[str, Any]:
 
 
 def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None, wishes: Design = OPEN, *,
-          workers: int | str = 1, machine: bool = False, progress: Progress | None = None) -> Cycle:
+          workers: int | str = 1, progress: Progress | None = None) -> Cycle:
     """The construction in so many poses of the drive's turn, or of a span of its travel, and the check in each.
 
     Reads a scene with a drive; `workers` are told ranges of poses and give back what is drawn and compared in each, as
-    those of a :class:`Stream`; `machine` is `compiled` of :meth:`Construction.evaluate`; `progress` is told what is
-    being done, how many poses are done, of how many. Fails as `follow` and `construct` do.
+    those of a :class:`Stream`; `progress` is told what is being done, how many poses are done, of how many. Fails as
+    `follow` and `construct` do.
     """
     afford_poses(positions)
-    return join_blocks([*cycle_blocks(scene, positions, span, wishes, workers=workers, machine=machine,
-                                      progress=progress)])
+    return join_blocks([*cycle_blocks(scene, positions, span, wishes, workers=workers, progress=progress)])
 
 
 def cycle_blocks(scene: Scene, positions: int, span: tuple[float, float] | None = None, wishes: Design = OPEN, *,
-                 workers: int | str = 1, machine: bool = False, progress: Progress | None = None) -> Iterator[Cycle]:
+                 workers: int | str = 1, progress: Progress | None = None) -> Iterator[Cycle]:
     """Yield the cycle block by block, in the memory of one: successive poses, numbered from the block's first."""
     def report_progress(what: str) -> Callable[[int, int], None]:
         return lambda done, of: progress(what, done, of) if progress else None
@@ -126,14 +125,14 @@ def cycle_blocks(scene: Scene, positions: int, span: tuple[float, float] | None 
     drawing = _construct(scene, wishes)
     shares = 1 if isinstance(workers, str) else max(1, workers)
     length = min(MAX_BLOCK, max(MIN_BLOCK, -(-positions // (SHARES_EACH * shares))))
-    stream = Stream(drawing, positions, span, compiled=machine, length=length,
+    stream = Stream(drawing, positions, span, length=length,
                     progress=lambda part: report_progress("positions")(round(part * positions), positions))
     other_ways, done = OtherWays(scene, drawing, wishes), 0
     for compared in stream.shared_out(_compare_block, workers):
         block, remaining = _recorded_way(stream, compared)
         start, done = done, done + len(block.turn.travel)
         report_progress("poses")(done, positions)
-        remaining = other_ways.draw_remaining(block, start, remaining, machine, report_progress)
+        remaining = other_ways.draw_remaining(block, start, remaining, report_progress)
         faults = {k: why for k, why in sorted(block.faults.items()) if k not in block.otherwise}
         for z in (*(z for named in block.results.values() for z in named.values()), *block.gaps.values()):
             z[list(faults)] *= np.nan  # near a limit numbers say nothing; of a vector neither component
@@ -199,13 +198,13 @@ class OtherWays:
         self.ways_kept = list[tuple[str, Construction]]()
         self.forms, self.poses_recorded = iter(() if wishes.method else METHODS), 0
 
-    def draw_remaining(self, block: Cycle, start: int, remaining: PoseBatch, compiled: bool,
+    def draw_remaining(self, block: Cycle, start: int, remaining: PoseBatch,
                        report: Callable[[str], Callable[[int, int], None]]) -> PoseBatch:
         """Draw what remains of a block, which begins with this pose; what still remains then."""
         kept = iter([*self.ways_kept])
         while remaining.places.size and (way := next(kept, None) or self._another_way(block, start, remaining.places)):
             name, alternative = way
-            poses = alternative.evaluate(remaining.points, remaining.guides, loads=remaining.loads, compiled=compiled,
+            poses = alternative.evaluate(remaining.points, remaining.guides, loads=remaining.loads,
                                          progress=report("plans"))
             apart = pose_gaps(remaining, alternative, poses.results, report("check"))
             sound = sound_poses(remaining, alternative, poses.results, apart)

@@ -72,7 +72,7 @@ class PoseBatch:
         return PoseBatch(self.scene, self.places[kept], *arrays)
 
     def of_part(self, scene: Scene) -> PoseBatch:
-        """The same poses for a part of the mechanism, with its own points, guides and loads."""
+        """Restrict the poses to a part of the mechanism, with its own points, guides and loads."""
         names_of_part = [*scene.points], [*guides(scene)], [*changing_loads(scene.loads)]
         arrays = ({name: array for name, array in named.items() if name in names}
                   for names, named in zip(names_of_part, (self.points, self.guides, self.loads), strict=True))

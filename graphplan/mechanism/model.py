@@ -424,7 +424,7 @@ class Scene:
 
     @cached_property
     def extent(self) -> float:
-        """The extent of the mechanism, across or upwards."""
+        """Extent of the mechanism in scene lengths: the larger of width and height."""
         places = [(float(x), float(y)) for x, y in self.points.values()] or [(0.0, 0.0)]
         xs, ys = zip(*places, strict=True)
         return max(max(xs) - min(xs), max(ys) - min(ys)) or 1.0

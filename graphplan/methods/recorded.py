@@ -56,7 +56,7 @@ class ReadableDrawing(Drawing):
 
     @property
     def tempo(self) -> Tempo:
-        """Scale of rates."""
+        """Scale of rates: the angular velocity, in rad/s, that is drawn as one."""
         return self.design.tempo
 
     @property

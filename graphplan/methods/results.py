@@ -167,12 +167,12 @@ class NamedResults(ABC, Generic[V, N]):
 
     @property
     def velocity(self) -> NamedValues[V]:
-        """The velocities of points, of a fixed point 0."""
+        """Velocities of points by name, complex, in scene lengths/s; 0 for a fixed point."""
         return self._vectors(kinds.VELOCITY)
 
     @property
     def acceleration(self) -> NamedValues[V]:
-        """The accelerations of points, of a fixed point 0."""
+        """Accelerations of points by name, complex, in scene lengths/s^2; 0 for a fixed point."""
         return self._vectors(kinds.ACCELERATION)
 
     def _vectors(self, kind: str) -> NamedValues[V]:
@@ -180,23 +180,23 @@ class NamedResults(ABC, Generic[V, N]):
 
     @property
     def sliding_velocity(self) -> NamedValues[V]:
-        """The velocities of sliding points relative to their guides, by slide, such as `3 along 2`."""
+        """Velocities of sliding points relative to their guides, in scene lengths/s, by slide, such as `3 along 2`."""
         return NamedValues(self.results_of_kind(kinds.SLIDE_VELOCITY), "sliding velocity")
 
     @property
     def sliding_acceleration(self) -> NamedValues[V]:
-        """The accelerations of sliding points relative to their guides, by slide."""
+        """Accelerations of sliding points relative to their guides, in scene lengths/s^2, by slide."""
         return NamedValues(self.results_of_kind(kinds.SLIDE_ACCELERATION), "sliding acceleration")
 
     @property
     def poles(self) -> NamedValues[V]:
-        """The instant centres, such as `2 frame`; one at infinity is nan, or is not among those drawn."""
+        """Instant centres, such as `2 frame`, complex, in scene lengths; at infinity nan, or left out if drawn."""
         return NamedValues(self.results_of_kind(kinds.POLE), "pole")
 
     @property
     def curvature(self) -> NamedValues[V]:
-        """The centres of curvature of paths, such as that of `M on 2`; one at infinity is nan, or is not among those
-        drawn."""
+        """Centres of curvature of paths, such as that of `M on 2`, complex, in scene lengths; at infinity nan, or left
+        out if drawn."""
         return NamedValues(self.results_of_kind(kinds.CENTRE), "centre of curvature")
 
     @property
@@ -211,8 +211,8 @@ class NamedResults(ABC, Generic[V, N]):
 
     @property
     def reactions(self) -> NamedValues[V]:
-        """The reactions, on links at joints, such as `2 at B`, of slides, gears and contacts; with friction where they
-        are drawn with it."""
+        """Reactions, complex, in the scene's unit of force: on links at joints, such as `2 at B`, of slides, gears and
+        contacts; with friction where they are drawn with it."""
         of_forces = *kinds.REACTIONS, *kinds.WITH_FRICTION.values()
         results = {str(kind): self.results_of_kind(kind) for kind in of_forces}
         return NamedValues(forces(self.scene, results), "reaction")

@@ -277,7 +277,7 @@ class ArcOfCentres:
                 yield k / ARC_SAMPLES, linkage
 
     def ground_ranges(self) -> list[tuple[float, float]]:
-        """The approximate range of ground lengths that give crank-rockers; empty if none does."""
+        """The approximate range of ground lengths that give crank-rockers; empty without any."""
         grounds = [abs(self.centre(t)) for t, _ in self.samples()]
         return [(min(grounds), max(grounds))] if grounds else []
 

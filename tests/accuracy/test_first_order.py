@@ -8,9 +8,10 @@ from typing import Any
 
 import pytest
 from drawings import SCENES, drafted_of, drawing_of, scales_of
+from noisy_hands import HANDS, sample_hands
 
 from graphplan.accuracy.drafted import draft
-from graphplan.accuracy.expected import HANDS, Result, first_order, sample_hands
+from graphplan.accuracy.expected import Result, first_order
 from graphplan.design.hand import Hand, Pencil, hand
 from graphplan.kernel.numbers import Floats
 from graphplan.methods.construction import Construction

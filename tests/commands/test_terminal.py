@@ -257,7 +257,7 @@ def test_commands_and_options_are_offered(complete: Complete) -> None:
     assert complete("graphplan sol") == {"solve"}
     assert complete("graphplan cycle --pos") == {"--positions"}
     assert {"--pencil", "--quiet"} <= complete("graphplan cost --")
-    assert "--pencil" not in complete("graphplan solve --")
+    assert "--pencil" not in complete("graphplan check --")
     assert {"auxiliary", "trial", "poles", "auxiliary,trial"} < complete("graphplan draw --method ")
     assert complete("graphplan steps --prefer=acc") == {"accurate"}
     assert complete("graphplan schema s") == {"scene", "solve", "steps", "synthesize", "synthesize-keys"}

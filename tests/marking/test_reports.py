@@ -95,7 +95,7 @@ def test_a_class_is_told_as_its_drawings_are(tmp_path: Path) -> None:
     lines = printed.splitlines()
     assert [line[:6] for line in islice((line for line in lines if ".csv: " in line), 4)] == [
         f"{number}.csv:" for number in range(4)]
-    assert "Drawings: 4, of which 1 have no wrong step." in lines
+    assert "Drawings: 4; without a wrong step: 1." in lines
     assert "Not judged: 1." in lines
 
 

@@ -9,7 +9,7 @@ examples:
   graphplan report quick-return -o report.pdf
   graphplan report kinytskyi --positions 12 --language de -o bericht.pdf
   graphplan report plough-lift --from 0 --to 80 -o lift.pdf
-  graphplan report scene.toml --set drive.0.rpm=90 --plan polar -o report.pdf
+  graphplan report scene.toml --set drive.0.rpm=90 --set sheet.plan=polar -o report.pdf
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ import os
 from typing import TYPE_CHECKING, Unpack
 
 from graphplan.app import drafting, files
-from graphplan.app.choices import add_choices, add_sheet, count, load_scene
+from graphplan.app.choices import add_language, add_settings, count, load_scene
 from graphplan.app.cycle import add_span, span_of
 from graphplan.app.drafting import Keywords, with_sheet
 from graphplan.errors import BrokenClaim, Refused
@@ -35,13 +35,13 @@ POSES = 120  # that diagrams have at least
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("-o", "--output", metavar="FILE.pdf", required=True, help="the file to write")
+    command.add_argument("-o", "--output", metavar="FILE", required=True, help="the .pdf to write")
     command.add_argument("--positions", type=count("--positions", LEAST, MOST), default=DEFAULT_POSITIONS, metavar="N",
                          help=f"how many positions the table has ({DEFAULT_POSITIONS}); extremes and diagrams have "
                          "further poses between")
     add_span(command.add_argument, "one full turn, or the way between limits")
-    add_sheet(command)
-    add_choices(command)
+    add_language(command)
+    add_settings(command)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -23,7 +23,7 @@ from face import names, ran
 import graphplan as gp
 
 ROOT = Path(__file__).parents[2]
-MAX_OPTIONS, MAX_DECLARED, MAX_LINES = 70, 180, 92
+MAX_OPTIONS, MAX_DECLARED, MAX_LINES = 70, 187, 92
 PATIENCE = 600.0  # seconds after which it hangs, on any machine
 THREADS = "MKL_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"
 KINDS = re.findall(r"\{([a-z,-]+)\}", ran("new", "--help").out)[0].split(",")
@@ -72,7 +72,7 @@ def test_help_fits_two_screens_and_has_examples(command: str, monkeypatch: pytes
 
 
 def test_there_are_not_too_many_options(monkeypatch: pytest.MonkeyPatch) -> None:
-    """All commands together declare at most 180 options besides -h, of 70 meanings: one that means the same in several
+    """All commands together declare at most 187 options besides -h, of 70 meanings: one that means the same in several
     commands is learnt once, and one name with two meanings counts twice."""
     monkeypatch.setenv("COLUMNS", "400")
     declared = [head for command in COMMANDS

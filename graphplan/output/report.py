@@ -100,13 +100,13 @@ class CycleReport:
         """What the scene asks for, in the order of the sheet, without what is zero in all poses but for rounding; of a
         machine with friction the efficiency."""
         quantities, sizes = [*self._motion_and_forces()], dict[str, float]()
-        for one in quantities:
-            sizes[one.unit] = max(sizes.get(one.unit, 0.0), float(np.nanmax(np.abs(one.values), initial=0.0)))
-        rounded = (one._replace(values=np.where(np.abs(one.values) <= ZERO_TOL * sizes[one.unit], 0.0, one.values))
-                   for one in quantities)
+        for quantity in quantities:
+            sizes[quantity.unit] = max(sizes.get(quantity.unit, 0.0), float(np.nanmax(np.abs(quantity.values), initial=0.0)))
+        rounded = (quantity._replace(values=np.where(np.abs(quantity.values) <= ZERO_TOL * sizes[quantity.unit], 0.0, quantity.values))
+                   for quantity in quantities)
         efficiency = [] if self.cycle.efficiency is None else [
             CycleQuantity(said("efficiency"), said("efficiency"), "", self.cycle.efficiency)]
-        return [*(one for one in rounded if np.nanmax(np.abs(one.values), initial=0.0)), *efficiency]
+        return [*(quantity for quantity in rounded if np.nanmax(np.abs(quantity.values), initial=0.0)), *efficiency]
 
     def _motion_and_forces(self) -> Iterator[CycleQuantity]:
         """The results that the sheet states, over the cycle."""
@@ -161,7 +161,7 @@ class CycleReport:
 
     def _group(self, quantity: CycleQuantity) -> int:
         """The place of a quantity's unit among all units."""
-        return [*dict.fromkeys(one.unit for one in self.quantities)].index(quantity.unit)
+        return [*dict.fromkeys(each.unit for each in self.quantities)].index(quantity.unit)
 
     def _bearing(self, first: int, of: int) -> list[Sheet]:
         """The polar diagram of the bearing with the largest force; no page where there are no forces in bearings."""
@@ -174,7 +174,7 @@ class CycleReport:
             return []
         name, force = max(loads.items(), key=lambda load: float(np.nanmax(np.abs(load[1]))))
         symbol = symbols[name]
-        quantity = next(one for one in self.quantities if one.symbol == symbol)
+        quantity = next(quantity for quantity in self.quantities if quantity.symbol == symbol)
         note = said("Directions are those in the plane of the frame; the numbers are those of the table of positions.")
         return self._sheet(BEARING, first, of, partial(self._polar, force, symbol),
                            [self._extremes([quantity]), note]).pages() or []
@@ -182,7 +182,7 @@ class CycleReport:
     def _positions(self, first: int, of: int) -> list[Sheet]:
         """The table of positions, as many columns beside each other as have room, on pages of words."""
         measure, travel = self.travel
-        columns = [TableColumn("", one.symbol, one.unit, one.values[::self.between]) for one in self.quantities]
+        columns = [TableColumn("", quantity.symbol, quantity.unit, quantity.values[::self.between]) for quantity in self.quantities]
         head = TableColumn("", said("drive"), measure, travel[::self.between])
         sheet = self._sheet(DIAGRAMS, first, of, lambda page: PanelFigure(page.room(DIAGRAMS)))
         rows, abreast = [sheet.heading(said("Positions"))], list[TableColumn]()
@@ -220,7 +220,7 @@ class CycleReport:
         numbers = _numbers(map(window.spot, turn.points[pins[0]][:: self.between]), window.rect) if pins else []
         return PanelFigure(
             window.rect, strokes=[*TracedMotion((), positions).faint(self.scene, window), *paths, *mechanism.items(),
-                                  *(item for drawn, _ in arrows for item in drawn)],
+                                  *(item for items, _ in arrows for item in items)],
             wishes=[*mechanism_wishes(mechanism), *(value for _, value in arrows), *numbers])
 
     def _usual(self, values: Any) -> Any:
@@ -240,10 +240,10 @@ class CycleReport:
             legend = [*_legend(group, page, room, top - LINE_MM)]
             lines = 1 + len({item.at[1] for item in legend if isinstance(item, Text)})
             rect = Rect(room.left, top - high + FOOT + LINE_MM, room.right, top - lines * LINE_MM)
-            ordinates = _span([self._usual(one.values) for one in group], group[0].unit)
+            ordinates = _span([self._usual(quantity.values) for quantity in group], group[0].unit)
             frame = Frame.fit_rect(rect, (float(xs[0]), float(xs[-1])), ordinates)
-            curves = [DrawnCurve(xs, self._close_turn(one.values), pen) for one, pen in zip(group, PENS, strict=False)]
-            words = [*dict.fromkeys(one.words for one in group)]
+            curves = [DrawnCurve(xs, self._close_turn(quantity.values), pen) for quantity, pen in zip(group, PENS, strict=False)]
+            words = [*dict.fromkeys(quantity.words for quantity in group)]
             label = join((*words, *([unit(group[0].unit)] if group[0].unit else [])))
             letter = "" if k < len(groups) - 1 else "φ" if measure == "°" else "s"
             diagrams.append(Diagram(
@@ -254,9 +254,9 @@ class CycleReport:
 
     def _largest_marks(self, frame: Frame, group: Sequence[CycleQuantity]) -> Iterator[Item]:
         """A dot at the largest value of each curve."""
-        for one, pen in zip(group, PENS, strict=False):
-            if one.unit and (place := _place_of_largest(one.values)) is not None:
-                spot = frame.spot(float(self.travel[1][place]), float(one.values[place]))
+        for quantity, pen in zip(group, PENS, strict=False):
+            if quantity.unit and (place := _place_of_largest(quantity.values)) is not None:
+                spot = frame.spot(float(self.travel[1][place]), float(quantity.values[place]))
                 if frame.rect.holds(spot):
                     yield Circle(pen.with_fill(pen.colour), "links", None, spot, DOT_MM)
 
@@ -301,11 +301,11 @@ class CycleReport:
         say nothing."""
         measure, travel = self.travel
         rows: list[list[Said | str]] = [["", said("largest"), join((said("drive"), unit(measure))), said("rms")]]
-        for one in quantities:
-            if one.unit and (place := _place_of_largest(one.values)) is not None:
-                name = join((one.symbol, unit(one.unit)))
-                mean = float(np.sqrt(np.nanmean(np.square(one.values))))
-                rows.append([name, digits(float(one.values[place])), digits(float(travel[place])),
+        for quantity in quantities:
+            if quantity.unit and (place := _place_of_largest(quantity.values)) is not None:
+                name = join((quantity.symbol, unit(quantity.unit)))
+                mean = float(np.sqrt(np.nanmean(np.square(quantity.values))))
+                rows.append([name, digits(float(quantity.values[place])), digits(float(travel[place])),
                              digits(mean)])
         return rows
 
@@ -342,8 +342,8 @@ def _span(curves: Sequence[Any], measure: str) -> tuple[float, float]:
 def _legend(group: Sequence[CycleQuantity], page: PanelPage, room: Rect, y: float) -> Iterator[Polyline | Text]:
     """A sample of each curve with its letter, in lines from the left to the right of a room."""
     x = room.left
-    for one, pen in zip(group, PENS, strict=False):
-        text = page.text.text((x + SAMPLE_MM + 1.5, y), sentence_runs(page.tongue(one.symbol)))
+    for quantity, pen in zip(group, PENS, strict=False):
+        text = page.text.text((x + SAMPLE_MM + 1.5, y), sentence_runs(page.tongue(quantity.symbol)))
         if text.box.right > room.right and x > room.left:
             x, y = room.left, y - LINE_MM
             text = replace(text, at=(x + SAMPLE_MM + 1.5, y))

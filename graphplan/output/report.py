@@ -100,10 +100,10 @@ class CycleReport:
         """What the scene asks for, in the order of the sheet, without what is zero in all poses but for rounding; of a
         machine with friction the efficiency."""
         quantities, sizes = [*self._motion_and_forces()], dict[str, float]()
-        for quantity in quantities:
-            sizes[quantity.unit] = max(sizes.get(quantity.unit, 0.0), float(np.nanmax(np.abs(quantity.values), initial=0.0)))
-        rounded = (quantity._replace(values=np.where(np.abs(quantity.values) <= ZERO_TOL * sizes[quantity.unit], 0.0, quantity.values))
-                   for quantity in quantities)
+        for _, _, unit_text, values in quantities:
+            sizes[unit_text] = max(sizes.get(unit_text, 0.0), float(np.nanmax(np.abs(values), initial=0.0)))
+        rounded = (quantity._replace(values=np.where(np.abs(quantity.values) <= ZERO_TOL * sizes[quantity.unit], 0.0,
+                                                     quantity.values)) for quantity in quantities)
         efficiency = [] if self.cycle.efficiency is None else [
             CycleQuantity(said("efficiency"), said("efficiency"), "", self.cycle.efficiency)]
         return [*(quantity for quantity in rounded if np.nanmax(np.abs(quantity.values), initial=0.0)), *efficiency]
@@ -182,7 +182,8 @@ class CycleReport:
     def _positions(self, first: int, of: int) -> list[Sheet]:
         """The table of positions, as many columns beside each other as have room, on pages of words."""
         measure, travel = self.travel
-        columns = [TableColumn("", quantity.symbol, quantity.unit, quantity.values[::self.between]) for quantity in self.quantities]
+        columns = [TableColumn("", quantity.symbol, quantity.unit, quantity.values[::self.between])
+                   for quantity in self.quantities]
         head = TableColumn("", said("drive"), measure, travel[::self.between])
         sheet = self._sheet(DIAGRAMS, first, of, lambda page: PanelFigure(page.room(DIAGRAMS)))
         rows, abreast = [sheet.heading(said("Positions"))], list[TableColumn]()
@@ -242,7 +243,8 @@ class CycleReport:
             rect = Rect(room.left, top - high + FOOT + LINE_MM, room.right, top - lines * LINE_MM)
             ordinates = _span([self._usual(quantity.values) for quantity in group], group[0].unit)
             frame = Frame.fit_rect(rect, (float(xs[0]), float(xs[-1])), ordinates)
-            curves = [DrawnCurve(xs, self._close_turn(quantity.values), pen) for quantity, pen in zip(group, PENS, strict=False)]
+            curves = [DrawnCurve(xs, self._close_turn(quantity.values), pen)
+                      for quantity, pen in zip(group, PENS, strict=False)]
             words = [*dict.fromkeys(quantity.words for quantity in group)]
             label = join((*words, *([unit(group[0].unit)] if group[0].unit else [])))
             letter = "" if k < len(groups) - 1 else "φ" if measure == "°" else "s"

@@ -23,8 +23,6 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 FALSE_ALARM_CHANCE = 0.002  # per drawing: how often a faultless one may be called wrong [defined]
 MAX_MISTAKES = 4  # count: mistakes that are looked for in one drawing [cost]
 NOWHERE_MM = 1e6  # as far off as no sheet is [defined]
-FRAMES_LOOKED_AT = 2  # count: frames of a plan that are looked at closely [cost]
-MIN_PLAN_ODDS = -10.0  # what may speak against a frame in which no mistake is looked for [tuned]
 MIN_PENCIL_RATIO = 1.1  # times the stated pencil: a program's drawing may show one so much coarser [tuned]
 MISSED_MARK_COST = 3.0  # what it speaks against a plan that a mark is missing [tuned]
 KNOWN_MISTAKE_ODDS = -8.0  # of a mistake of the table at a step [tuned]

@@ -279,8 +279,8 @@ class Draws:
 
     def _ordered_places(self, path: str) -> list[int]:
         """The places of a number's values, the next first."""
-        values, kept, drawn = self.choices[path], self._kept[path], self._drawn[path]
-        return sorted(self._walks[path], key=lambda place: (kept[values[place]], drawn[values[place]]))
+        values, uses, draws = self.choices[path], self._kept[path], self._drawn[path]
+        return sorted(self._walks[path], key=lambda place: (uses[values[place]], draws[values[place]]))
 
     @property
     def is_empty(self) -> bool:
@@ -295,8 +295,8 @@ class Draws:
 
 def _walk(count: int, start: float, share: float) -> list[int]:
     """The places of so many values in the order in which steps of a share of the range come to them from a start."""
-    ways = (start + share * np.arange(count)) % 1.0
-    order: list[int] = np.argsort(np.argsort(ways)).tolist()
+    turns = (start + share * np.arange(count)) % 1.0
+    order: list[int] = np.argsort(np.argsort(turns)).tolist()
     return order
 
 
@@ -489,7 +489,7 @@ class SceneDesign(SeriesDesign):
         enough fit, else what most fit."""
         tried = list[tuple[Wording, Sequence[Any]]]()
         for wording in map(self.wording, self._proposals(pilots, number)):
-            if all(wording != other for other, _ in tried):
+            if all(wording != earlier for earlier, _ in tried):
                 tried.append((wording, [*self.assess(wording, number, pilots)]))
             if _count_good(tried[-1][1]) >= measures.MIN_FITTING_SHARE * len(pilots):
                 break

@@ -99,11 +99,11 @@ def conclude(classroom: StackDesk, results: StackResults) -> int:
 def last_handed_in(options: argparse.Namespace) -> str:
     """What a class has handed in last, which is looked at again with the teacher's words on it."""
     into = Path(options.output or Path(options.scene) / "results")
-    kept = Keeper(into / "kept").get(HANDED_IN_KEY)
-    if not kept:
+    stack = Keeper(into / "kept").get(HANDED_IN_KEY)
+    if not stack:
         raise Refused("DRAWING", "nothing of this class was judged before",
                       "verify FOLDER STACK, with a stack of scans or a table")
-    return str(kept["path"])
+    return str(stack["path"])
 
 
 @dataclass(frozen=True)

@@ -188,8 +188,8 @@ def register_warp(image: Grey, start: Warp, light: Light, scale: float, pieces: 
     share, mine = float(near.sum() / max(1, len(ideal))), pieces.select(pieces.is_own)
     own_found = near[pieces.is_own]
     if len(own_found):
-        seen = _profiles(image, warp, mine, measures.PROFILE_REACH_MM)
-        own_found = own_found | _are_overdrawn(ideal[pieces.is_own], seen)
+        profiles = _profiles(image, warp, mine, measures.PROFILE_REACH_MM)
+        own_found = own_found | _are_overdrawn(ideal[pieces.is_own], profiles)
     return RegisteredWarp(warp, error, share, float(own_found.mean()) if len(own_found) else share)
 
 

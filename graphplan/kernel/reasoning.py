@@ -19,9 +19,9 @@ from graphplan.kernel.stages import Stage, Teller, tell_stages
 def order_by_reasoning(program: Program, serves: Sequence[int]) -> tuple[Program, list[int]]:
     """Return the same steps in the order of telling, and the old place of each; `serves` numbers the compound that each
     step is drawn for."""
-    told = _Telling(program, serves).told
-    steps = [step.but(stage=stage) for step, stage in zip(program.steps, told, strict=True)]
-    order = [*range(program.givens), *_order_of_stages(program, told)]
+    stage_of = _Telling(program, serves).stage_of
+    steps = [step.but(stage=stage) for step, stage in zip(program.steps, stage_of, strict=True)]
+    order = [*range(program.givens), *_order_of_stages(program, stage_of)]
     return renumber(steps, program.wanted, order), order
 
 
@@ -44,48 +44,50 @@ class _Telling:
 
     def __init__(self, program: Program, serves: Sequence[int]):
         self.program, self.serves = program, serves
-        self.told = _recorded_stages(program)
-        self.drawn, ends = set(range(program.givens)), _first_ends(program, self.told)
-        self.left = dict[Stage | None, set[int]]()  # the steps of each stage that is not whole yet, as recorded
+        self.stage_of = _recorded_stages(program)
+        self.finished, ends = set(range(program.givens)), _first_ends(program, self.stage_of)
+        self.unfinished = dict[Stage | None, set[int]]()  # the steps of each stage that is not whole yet, as recorded
         for index in range(program.givens, len(program)):
-            self.left.setdefault(self.told[index], set()).add(index)
-        while self.left:
+            self.unfinished.setdefault(self.stage_of[index], set()).add(index)
+        while self.unfinished:
             if not self._draw_whole_stages():
                 moves = [move for stage in self._first_ring() for move in self._ways_to_make_whole(stage)]
                 self._retell(min(moves, key=lambda move: (len(ends & move.keys()), len(move))))
 
     def _draw_whole_stages(self) -> bool:
         """Draw the stages that read nothing but themselves and what is drawn; return whether there is any."""
-        whole = [stage for stage, steps in self.left.items() if not self._missing(steps)]
+        whole = [stage for stage, steps in self.unfinished.items() if not self._missing(steps)]
         for stage in whole:
-            self.drawn |= self.left.pop(stage)
+            self.finished |= self.unfinished.pop(stage)
         return bool(whole)
 
     def _missing(self, steps: Collection[int]) -> set[int]:
         """Return what steps read that is neither drawn nor one of them."""
         return {arg for index in steps for arg in self.program.steps[index].args
-                if arg not in self.drawn and arg not in steps}
+                if arg not in self.finished and arg not in steps}
 
     def _first_ring(self) -> list[Stage | None]:
         """Return the stages that read none but those that read them."""
-        reads = {stage: {self.told[arg] for arg in self._missing(steps)} for stage, steps in self.left.items()}
+        reads = {stage: {self.stage_of[arg] for arg in self._missing(steps)}
+                 for stage, steps in self.unfinished.items()}
         behind = dict[Stage | None, set[Stage | None]]()
-        for stage in self.left:
+        for stage in self.unfinished:
             waiting, behind[stage] = [stage], set()
             while waiting:
                 new = reads[waiting.pop()] - behind[stage]
                 behind[stage] |= new
                 waiting += new
-        return [stage for stage in self.left if all(stage in behind[other] for other in behind[stage])]
+        return [stage for stage in self.unfinished if all(stage in behind[other] for other in behind[stage])]
 
     def _ways_to_make_whole(self, stage: Stage | None) -> Iterator[dict[int, Stage | None]]:
         """Yield ways to leave a stage nothing to wait for, as the steps that are told otherwise and their new stage."""
-        own, waits = self.left[stage], set[int]()
-        yield dict.fromkeys(steps_behind(self.program.steps, own, self.drawn) - own, stage)
-        for index in sorted(own):
-            if any(arg in waits or not (arg in self.drawn or arg in own) for arg in self.program.steps[index].args):
+        steps, waits = self.unfinished[stage], set[int]()
+        yield dict.fromkeys(steps_behind(self.program.steps, steps, self.finished) - steps, stage)
+        ready = steps | self.finished
+        for index in sorted(steps):
+            if any(arg in waits or arg not in ready for arg in self.program.steps[index].args):
                 waits.add(index)
-        if {self.serves[index] for index in waits}.isdisjoint(self.serves[index] for index in own - waits):
+        if {self.serves[index] for index in waits}.isdisjoint(self.serves[index] for index in steps - waits):
             yield self._given_away(stage, sorted(waits))
 
     def _given_away(self, stage: Stage | None, steps: Sequence[int]) -> dict[int, Stage | None]:
@@ -94,31 +96,31 @@ class _Telling:
         readers = {index: [step.index for step in self.program.steps if index in step.args] for index in steps}
         sources = {index: self.program.steps[index].args for index in steps}
         for index, others in (*reversed(readers.items()), *sources.items()):
-            stages = {taker.get(other, self.told[other]) for other in others if other not in self.drawn} - {stage}
+            stages = {taker.get(step, self.stage_of[step]) for step in others if step not in self.finished} - {stage}
             if stages and index not in taker:
-                taker[index] = next(one for one in self.left if one in stages)
+                taker[index] = next(one for one in self.unfinished if one in stages)
         return taker
 
     def _retell(self, moves: dict[int, Stage | None]) -> None:
         """Tell steps with other stages."""
         for index, stage in moves.items():
-            self.left[self.told[index]].remove(index)
-            self.left[stage].add(index)
-            self.told[index] = stage
+            self.unfinished[self.stage_of[index]].remove(index)
+            self.unfinished[stage].add(index)
+            self.stage_of[index] = stage
 
 
 def _recorded_stages(program: Program) -> list[Stage | None]:
     """Return the stage of each step; a step without one has that of the step recorded next."""
-    told = [*tell_stages(program.steps)]
-    for index in reversed(range(program.givens, len(told) - 1)):
-        told[index] = told[index] or told[index + 1]
-    return told
+    stage_of = [*tell_stages(program.steps)]
+    for index in reversed(range(program.givens, len(stage_of) - 1)):
+        stage_of[index] = stage_of[index] or stage_of[index + 1]
+    return stage_of
 
 
-def _first_ends(program: Program, told: Sequence[Stage | None]) -> set[int]:
+def _first_ends(program: Program, stage_of: Sequence[Stage | None]) -> set[int]:
     """Return the last step of each stage of those that were recorded when it was recorded first."""
     tellers, ends = dict[Stage | None, Teller](), dict[Stage | None, int]()
-    for step, stage in zip(program.steps, told, strict=True):
+    for step, stage in zip(program.steps, stage_of, strict=True):
         if step.stage and step.stage is tellers.setdefault(stage, step.stage):
             ends[stage] = step.index
     return {*ends.values()}
@@ -127,14 +129,14 @@ def _first_ends(program: Program, told: Sequence[Stage | None]) -> set[int]:
 # ---- which stage is next ---------------------------------------------------------------------------------------------
 
 
-def _order_of_stages(program: Program, told: Sequence[Stage | None]) -> list[int]:
+def _order_of_stages(program: Program, stage_of: Sequence[Stage | None]) -> list[int]:
     """Return the steps, by index, stage by stage.
 
     The plan of the stage recorded first is begun. Of the stages that can be drawn now one of the plan in hand comes
     first, else one for which another waits; of these one on the same part of it, then one like the last, then one like
     others on that plan or that such a one reads; else that which was recorded first.
     """
-    stages = _stages_to_draw(program, told)
+    stages = _stages_to_draw(program, stage_of)
     plan, part, title, laws = stages[0].plan if stages else "", "", "", dict[str, None]()
     ready = dict[_KindOfStage, list[tuple[int, _StageToDraw]]]()  # of each kind a heap, the first recorded on top
     order = list[int]()
@@ -206,18 +208,18 @@ class _StageToDraw:
         return not self.readers or any(reader.reads <= self.steps for reader in self.readers)
 
 
-def _stages_to_draw(program: Program, told: Sequence[Stage | None]) -> list[_StageToDraw]:
+def _stages_to_draw(program: Program, stage_of: Sequence[Stage | None]) -> list[_StageToDraw]:
     """The stages in the order in which they were recorded; what was recorded of one at several times is together."""
-    steps_of, stages, stage_of = dict[Stage | None, list[Step]](), list[_StageToDraw](), dict[int, _StageToDraw]()
+    steps_of, stages, bearer = dict[Stage | None, list[Step]](), list[_StageToDraw](), dict[int, _StageToDraw]()
     for step in program.steps[program.givens:]:
-        steps_of.setdefault(told[step.index], []).append(step)
+        steps_of.setdefault(stage_of[step.index], []).append(step)
     for stage, steps in steps_of.items():
         law, title = (stage.law.key, stage.title.key) if stage else ("", "")
         places, part = {step.index for step in steps}, home_plan(program, steps)
         reads = {arg for step in steps for arg in step.args if arg >= program.givens} - places
         stages.append(_StageToDraw(part.whole, part, law, title, places, reads))
-        stage_of.update(dict.fromkeys(places, stages[-1]))
+        bearer.update(dict.fromkeys(places, stages[-1]))
     for reader in stages:
-        for earlier in {id(stage_of[arg]): stage_of[arg] for arg in reader.reads}.values():
+        for earlier in {id(bearer[arg]): bearer[arg] for arg in reader.reads}.values():
             earlier.readers.append(reader)
     return stages

@@ -95,7 +95,13 @@ def _guidance(synthesis: Synthesis) -> float:
 
 def _function(synthesis: Synthesis) -> float:
     """The coupler keeps its length at all pairs, and what is given is kept."""
-    (linkage,), request = synthesis.linkages, synthesis.task.request
+    return max(_coupler_gap(synthesis.task, linkage) for linkage in synthesis.linkages)
+
+
+def _coupler_gap(task: SynthesisTask, linkage: FoundLinkage) -> float:
+    """By how much the coupler of a linkage changes its length, or the crank is not the given one, relative to its
+    size."""
+    request = task.request
     turned = [cmath.exp(1j * math.radians(angle - request.input[0])) for angle in request.input]
     A = [linkage.O + (linkage.A[0] - linkage.O) * turn for turn in turned]
     if request.rocker:

@@ -9,14 +9,17 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Sequence
 from typing import Any
+
+import numpy as np
 
 from graphplan.errors import NoMechanism
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.numbers import number_text
 from graphplan.phrases import said
 from graphplan.synthesis import guidance
-from graphplan.synthesis.linkage import FoundLinkage
+from graphplan.synthesis.linkage import FoundLinkage, sort_linkages
 from graphplan.synthesis.sketch import (
     FIRST_THREE,
     Synthesis,
@@ -32,13 +35,51 @@ from graphplan.synthesis.tolerances import COLLINEAR_TOL, SAME_POINT_TOL
 
 
 def synthesize_function(task: SynthesisTask) -> Synthesis:
-    """The linkage of a function task."""
-    construction = RockerSketch(task) if task.request.rocker else SlideSketch(task)
-    linkage = require_lengths(construction.linkage(), f"{task.name}: function", construction.size, "other angles")
-    results = {}
-    if task.request.compare:
-        results = {"structural_error": structural_error(task, linkage)}
-    return Synthesis(task, (construction.values,), (linkage,), results)
+    """The linkages of a function task, best first: of up to four pairs one, of five up to three."""
+    sketches = [RockerSketch(task, w) for w in crank_pins(task)] if task.request.rocker else [SlideSketch(task)]
+    pairs = [(sketch, sketch.linkage()) for sketch in sketches]
+    values = {id(require_lengths(linkage, f"{task.name}: function", sketch.size, "other angles")): sketch.values
+              for sketch, linkage in pairs}
+    linkages = sort_linkages([linkage for _, linkage in pairs])
+    results = {"structural_error": structural_error(task, linkages[0])} if task.request.compare else {}
+    return Synthesis(task, tuple(values[id(linkage)] for linkage in linkages), tuple(linkages), results)
+
+
+def crank_pins(task: SynthesisTask) -> list[complex]:
+    """The places of A in the crank's plane, whose axis is the input line: the chosen one, or all that five pairs leave.
+    """
+    request, where = task.request, f"{task.name}: function"
+    if request.crank:
+        return [complex(request.crank)]
+    O, C, angles = complex(*request.pivot), complex(*request.rocker["pivot"]), request.rocker["angles"]
+    crank, rocker = map(direction, request.input), [direction(angle - angles[0]) for angle in angles]
+    if len(angles) < 5:
+        positions = [(C + (O - C) / turn, way / turn) for way, turn in zip(crank, rocker, strict=True)]
+        return [guidance.chosen_point(f"{where}.moving.1", positions, request.moving[0])]
+    pins = pins_of_five_pairs(C - O, [*crank], rocker)
+    if not pins:
+        raise NoMechanism(f"{where}.input", "no linkage has these five pairs", "another pair, or four of them")
+    return pins
+
+
+def pins_of_five_pairs(ground: complex, crank: Sequence[complex], rocker: Sequence[complex]) -> list[complex]:
+    """All w in the crank's plane for which A = w crank_k and B = ground + b rocker_k are equally far apart.
+
+    The differences of the squares are linear in w, b and g = w conj(b): with d = conj(ground)
+    Re(w d (crank_k - crank_1)) - Re(b d (rocker_k - rocker_1)) + Re(g (crank_k/rocker_k - crank_1/rocker_1)) = 0.
+    Four of them leave a sum of two solutions, in the ratio t; that g is w conj(b) is a cubic in t.
+    """
+    ahead, ways = ground.conjugate() / abs(ground), [*zip(crank, rocker, strict=True)]
+    factors = [(ahead * (e - crank[0]), ahead * (rocker[0] - f), e / f - crank[0] / rocker[0]) for e, f in ways[1:]]
+    rows = [[part for factor in row for part in (factor.real, -factor.imag)] for row in factors]
+    solutions = np.linalg.svd(np.array(rows))[2][4:]
+    w, b, g = (solutions[:, part] + 1j * solutions[:, part + 1] for part in (0, 2, 4))
+    pins = list[complex]()
+    for ratio in guidance.real_roots(np.convolve(np.convolve(g, w.conj()), b).imag):
+        A, B, product = (complex(pair[0] + ratio * pair[1]) for pair in (w, b, g))
+        if min(abs(A), abs(B)) > COLLINEAR_TOL:
+            pins.append(abs(ground) * A * (product / (A * B.conjugate())).real)
+    return pins
 
 
 def structural_error(task: SynthesisTask, linkage: FoundLinkage) -> dict[str, Any]:
@@ -120,14 +161,13 @@ class InversionSketch:
 
 
 class RockerSketch(InversionSketch):
-    """Two to four pairs of a crank and a rocker."""
+    """Two to five pairs of a crank and a rocker, with A at w in the crank's plane."""
 
-    def __init__(self, task: SynthesisTask):
+    def __init__(self, task: SynthesisTask, w: complex):
         self.at, angles = complex(*task.request.rocker["pivot"]), task.request.rocker["angles"]
         super().__init__(task, C=self.at)
         request, sketch, (C,) = task.request, self.sketch, self.given
         self.where, self.turns = f"{task.name}: function.rocker", [angle - angles[0] for angle in angles]
-        w = complex(request.crank) if request.crank else self._moving_point
         turned = [self._turned_back(self.pivot + w * direction(angle), k) for k, angle in enumerate(request.input)]
         with sketch.stage(said("Positions"), self.positions_law):
             lines = [sketch.keep("output", sketch.ray(C, angle)) for angle in angles]
@@ -150,13 +190,6 @@ class RockerSketch(InversionSketch):
         return [sketch.keep("A", board.line_meets_circle(ray, circle, way="on", name=f"A_{k}") if circle is not None
                             else board.set_off(ray, self.O, dx=w.real, dy=w.imag, ux=1, uy=0, name=f"A_{k}"))
                 for k, ray in enumerate(self.rays, 1)]
-
-    @property
-    def _moving_point(self) -> complex:
-        """Of four pairs A in the crank's plane: a circle point of its positions seen from the rocker."""
-        positions = [(self._turned_back(self.pivot, k), direction(angle - self.turns[k]))
-                     for k, angle in enumerate(self.task.request.input)]
-        return guidance.chosen_point(f"{self.task.name}: function.moving.1", positions, self.task.request.moving[0])
 
     def linkage(self) -> FoundLinkage:
         """The linkage as it is drawn."""

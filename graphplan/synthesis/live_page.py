@@ -41,6 +41,7 @@ from graphplan.words.tongue import Tongue, tongue
 
 SCREEN_MM = "A4", 250.0, 196.0  # the plan's part of a window of 1280 by 800 pixels, and the paper whose letters it has
 MOVED = "guidance", "function", "stroke", "cognates"
+MOST_PAIRS = 5  # of a crank and a rocker: A is computed then, and not found by a page
 SCRIPTS = ("texts.js", "base.js", "viewing.js", "stepping.js", "task_linkage.js", "task_kinds.js", "task.js")
 WORDS = TASK_WORDS | TYPES | {name: arrange("{0:capital}.", text) for name, text in DEFECTS.items()}
 
@@ -106,7 +107,7 @@ class TaskLivePage:
 def live_task(synthesis: Synthesis) -> Data:
     """Movable data of a task for its page: its kind, and its given numbers."""
     task, numbers = synthesis.task, asdict(synthesis.task.request)
-    if task.kind not in MOVED or numbers.get("driver"):
+    if task.kind not in MOVED or numbers.get("driver") or len(numbers.get("input", ())) == MOST_PAIRS:
         raise Refused(f"{task.name}: {task.kind}", "what it gives cannot be dragged",
                       "the live page of the scene that graphplan synthesize -o FILE.toml writes")
     if not synthesis.linkages:

@@ -138,7 +138,7 @@ GUIDANCE = Table("positions of a plane through which a linkage guides it", (
                                           "such as ratio = 1.2"),), lambda row: row["ratio"])),
 ), _guidance)
 
-ANGLES = numbers(2, 4, "two to four angles such as [40, 70, 115]")
+ANGLES = numbers(2, 5, "two to five angles such as [40, 70, 115]")
 ROCKER = Table("a rocker", (
     Field("pivot", "its pivot C", PLACE, "such as pivot = [1, 0]"),
     Field("angles", "of a line of it, one for each angle of the crank", ANGLES, "such as angles = [82.3, 91.9]"),
@@ -164,8 +164,8 @@ def _function(row: TableRow) -> FunctionTask | None:
         row.item.faults.add(f"{items[name].where}.pivot", "it is the crank's pivot", "another point")
     if len({angle % 360 for angle in row["input"]}) < count:
         items["input"].fault("the crank is at one angle twice", "different angles")
-    if not by_rocker and count == 4:
-        items["input"].fault("4 pairs with a slide", "2 or 3 pairs")
+    if not by_rocker and count > 3:
+        items["input"].fault(f"{count} pairs with a slide", "2 or 3 pairs")
     keys = {"crank": "crank = 0.4", "moving": "moving = [{ u = 0.3, root = 1 }]"}
     needed = [key for key, wanted in zip(keys, (count < 4, count == 4), strict=True) if by_rocker and wanted]
     check_keys(row, {key: keys[key] for key in needed}, keys.keys() - needed, f"{count} pairs with a {name}")
@@ -177,11 +177,11 @@ def _function(row: TableRow) -> FunctionTask | None:
 
 FUNCTION = Table("angles of a crank and of a rocker, or places of a slide, that belong together", (
     Field("pivot", "the crank's pivot O", PLACE, "pivot = [0, 0]"),
-    Field("input", "angles of a line of the crank, two to four", ANGLES, "input = [40, 70, 115]"),
+    Field("input", "angles of a line of the crank, two to five", ANGLES, "input = [40, 70, 115]"),
     Field("rocker", "the rocker that is driven", ROCKER),
     Field("slide", "or the slide that is driven", SLIDE),
     Field("crank", "of 2 or 3 pairs with a rocker: the length OA; A lies on the input line", LENGTH),
-    Field("moving", "of 4 pairs: A in the crank's plane", MOVING),
+    Field("moving", "of 4 pairs: A in the crank's plane; of 5 it follows", MOVING),
     Field("compare", "inputs and the outputs that are wanted there: gives the structural error",
           rows_of_numbers(2, 1, MAX_ENTRIES, "pairs", "[[40, 82.3], [41, 82.5]]")),
 ), _function, either=("rocker", "slide"), remedy="rocker = { pivot = [1, 0], angles = [82.3, 91.9] }, or slide")

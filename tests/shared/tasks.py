@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 from random import Random
 
@@ -19,6 +20,8 @@ TASKS = {
     "four positions": f"[guidance]\npositions = [{PLANES}]\n"
                       "moving = [{ u = 0, root = 1 }, { u = 8.641, root = 2 }]\ntable = [1.5, 2, 5]",
     "rocker": f"{FUNCTION}input = [40, 70, 115]\ncrank = 0.4\n{ROCKER}\ncompare = [[40, 82.3], [60, 88]]",
+    "five pairs": f"{FUNCTION}input = [40, 70, 115, 160, 200]\n"
+                  "rocker = { pivot = [1, 0], angles = [82.331, 91.918, 116.205, 139.638, 152] }",
     "slide": f"{FUNCTION}input = [35, 65, 110]\nslide = {{ through = [0, -0.3], direction = [1, 0], "
              "at = [3.37392487, 2.83815578, 2.05655489] }",
     "slider-crank": "[stroke]\nratio = 1.2\nstroke = 0.1\noffset = 0.03",
@@ -55,7 +58,7 @@ class RandomTasks:
         """The task of this seed."""
         kinds = (self.moving, self.fixed, self.five, self.rocker, self.slider_crank, self.crank_rocker, self.turns,
                  self.four, self.slide, self.two_angles, self.lever, self.cognates, self.dwell, self.geneva,
-                 self.conjugate, self.gear, self.driven)
+                 self.conjugate, self.gear, self.driven, self.five_angles)
         return kinds[self.seed % len(kinds)]()
 
     def number(self, low: float, high: float) -> float:
@@ -92,6 +95,9 @@ class RandomTasks:
         angles = [self.number(0, 120) for _ in inputs]
         return (f"{FUNCTION}input = {inputs}\ncrank = {self.number(0.2, 1)}\n"
                 f"rocker = {{ pivot = {self.points(1)[0]}, angles = {angles} }}")
+
+    def five_angles(self) -> str:
+        return re.sub("crank = .*\n", "", self.rocker(5))
 
     def two_angles(self) -> str:
         return self.rocker(2)

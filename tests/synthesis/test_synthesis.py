@@ -55,6 +55,26 @@ def test_what_is_found_keeps_what_is_given(name: str, tmp_path: Path) -> None:
             assert point not in scene.points or [*map(float, scene.points[point])] == pytest.approx(place, abs=1e-9)
 
 
+def test_five_pairs_of_a_linkage_give_it_back(tmp_path: Path) -> None:
+    """Five pairs of angles of a known four-bar, by loop closure: it is one of the solutions, and each keeps its coupler
+    at all five when it is turned back."""
+    crank, coupler, rocker, inputs = 0.4, 0.9, 0.7, (40, 70, 115, 160, 200)
+    outputs = list[float]()
+    for turn in map(math.radians, inputs):
+        way = 1 - crank * np.exp(1j * turn)
+        inner = (abs(way) ** 2 + rocker**2 - coupler**2) / (2 * abs(way) * rocker)
+        outputs.append(math.degrees(np.angle(-way) - math.acos(inner)))
+    record = found(f"[function]\npivot = [0, 0]\ninput = {[*inputs]}\n"
+                   f"rocker = {{ pivot = [1, 0], angles = {outputs} }}", tmp_path)
+    lengths = [[one["lengths"][name] for name in ("O A", "A B", "B C")] for one in record["solutions"]]
+    assert any(one == pytest.approx([crank, coupler, rocker], rel=1e-9) for one in lengths)
+    for one in record["solutions"]:
+        O, A, B, C = (complex(*one["points"][name]) for name in "OABC")
+        back = [C + (O + (A - O) * np.exp(1j * math.radians(phi - inputs[0])) - C) * np.exp(
+            -1j * math.radians(psi - outputs[0])) for phi, psi in zip(inputs, outputs, strict=True)]
+        assert [abs(B - place) for place in back] == pytest.approx([one["lengths"]["A B"]] * 5, rel=1e-9)
+
+
 @pytest.mark.parametrize("name", PACKAGED)
 def test_packaged_tasks_are_right_wherever_they_are_written(name: str, tmp_path: Path) -> None:
     """A packaged task is found without a defect, and no scene has its name. Sheet and GeoGebra file, handed in as a

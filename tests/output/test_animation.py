@@ -98,7 +98,7 @@ def test_what_moves_is_shown_still_to_those_who_ask_for_it() -> None:
     still = [part for part in picture.iter() if part.get("class") == "still"]
     first = [part for part in moving if part.get("display") != "none"]
     assert len(still) == len(first) > 20
-    assert {part.get("dur") for part in picture.iter(f"{SVG}animate")} == {"4s"}
+    assert {part.get("dur") for part in picture.iter(f"{SVG}animate")} == {"6s"}
     assert {part.get("repeatCount") for part in picture.iter(f"{SVG}animate")} == {"indefinite"}
 
 

@@ -100,8 +100,6 @@ def add_choices(command: argparse.ArgumentParser, *, method: bool = True, strict
                 inertia: bool = False) -> None:
     """The options that choose how it is drawn."""
     add = command.add_argument
-    command.set_defaults(method="", inertia="", rounds=None, frame=None, protocol="", curves="", centrodes="",
-                         pencil=None, paper=None, language="")
     if method:
         add("--method", default="", choices=(*METHODS, *METHOD_PAIRS, *OF_PATHS), metavar="METHOD",
             help=f"how loci and rings are drawn ({', '.join(METHODS)}; a pair such as auxiliary,trial is for "
@@ -245,7 +243,7 @@ def load_source(options: argparse.Namespace, *unused: str) -> Scene | FoundMecha
         question(options, scene)
         return load_scene(options, scene)
     for option in unused:
-        if getattr(options, option):
+        if getattr(options, option, None):
             raise Refused(f"--{option}", f"it does not apply to a task of graphplan {kind.command}", "leave it out")
     found: FoundMechanism = with_sheet(leaves.module(kind.finder).find(text, options.scene), sheet_keys(options))
     return found

@@ -361,10 +361,10 @@ def _lock(editor: SceneEditor, point: str, other: str, length: float) -> None:
     at, placement = editor.floats, editor.scene.placements[point]
     entry = tomlkit.inline_table()
     if placement.how == "polar":
-        first, kept = next(iter(_locks(placement).items()))
+        first, distance = next(iter(_locks(placement).items()))
         turned = ((at[point] - at[first]) * (at[other] - at[first]).conjugate()).imag
         distances = tomlkit.inline_table()
-        distances.update({first: number(float(kept)), other: number(length)})
+        distances.update({first: number(float(distance)), other: number(length)})
         entry.update({"distances": distances, "side": "left" if turned >= 0 else "right"})
     else:
         angle = number(math.degrees(_phase(at[point] - at[other])), STANDING_DECIMALS)
@@ -552,11 +552,11 @@ def _rename_in_bars(auxiliary: MutableMapping[str, Any], points: Collection[str]
 
 def _rename_within(table: MutableMapping[str, Any], kind: str, old: str, new: str, above: tuple[str, ...]) -> None:
     """Rename in a table: keys that are names, and words of texts."""
-    other = "links" if kind == "point" else "points"
+    other_table = "links" if kind == "point" else "points"
     for key in [*table]:
         value = table[key]
         path = (*above, str(key))
-        if key in TEXT_KEYS or (path[0] == other and kind == "link"):
+        if key in TEXT_KEYS or (path[0] == other_table and kind == "link"):
             continue
         if isinstance(value, MutableMapping):
             _rename_within(value, kind, old, new, path)

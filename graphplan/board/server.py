@@ -154,20 +154,20 @@ class Guard:
 
 async def _body(receive: Receive, length: str) -> bytes | None:
     """The body of a request; None of one that is too large, of which as much is read as anybody may send by mistake."""
-    size, parts, more = 0, list[bytes](), True
+    size, chunks, more = 0, list[bytes](), True
     if length.isdecimal() and int(length) > MAX_DRAINED:
         return None
     while more:
         message = await receive()
         if message["type"] == "http.disconnect":
             break
-        part, more = message.get("body", b""), message.get("more_body", False)
-        size += len(part)
+        chunk, more = message.get("body", b""), message.get("more_body", False)
+        size += len(chunk)
         if size <= MAX_BODY:
-            parts.append(part)
+            chunks.append(chunk)
         elif size > MAX_DRAINED:
             return None
-    return b"".join(parts) if size <= MAX_BODY else None
+    return b"".join(chunks) if size <= MAX_BODY else None
 
 
 async def _refuse(status: int, why: str, scope: Scope, receive: Receive, send: Send) -> None:

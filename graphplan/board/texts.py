@@ -48,5 +48,5 @@ def words_in(language: str) -> dict[str, str]:
 
 def page_language(wanted: str) -> str:
     """The first of the wanted languages that graphplan speaks, such as of "de-AT,de;q=0.9,en;q=0.8"; else English."""
-    codes = [part.partition(";")[0].strip()[:2].lower() for part in wanted.split(",")]
+    codes = [entry.partition(";")[0].strip()[:2].lower() for entry in wanted.split(",")]
     return next((code for code in codes if code in LANGUAGES), "en")

@@ -80,17 +80,17 @@ CONTACTS = {"point": said("point"), "roller": said("roller"), "flat": said("flat
 def cam_sheet(paper: str, drawing: CamDrawing, check: dict[str, float]) -> PanelSheet:
     """The sheet of a cam: the plan, under it the curve x(s) if there is one, and beside them the diagrams."""
     cam, task = drawing.cam, drawing.cam.task
-    law, left = (1 - PLAN_WIDE, LAW_PLAN), CAM_PLAN
+    law = 1 - PLAN_WIDE, LAW_PLAN
     centre = CENTRE_PLAN if isinstance(cam.pair, Rolled) else CURVATURE_PLAN
     curves: dict[Panel, Callable[[CamFigures], PanelFigure]] = {centre: CamFigures.centre} \
         if not isinstance(cam.pair, FlatOscillating) else {}
     if curves and task.load:
         curves[SPRING_PLAN] = CamFigures.spring
     shares = (CURVE_WIDE, 1 - CURVE_WIDE) if len(curves) > 1 else (1.0,)
-    plan = column((PLAN_HIGH, left), (1 - PLAN_HIGH, row(*zip(shares, curves, strict=True)))) if curves else left
+    plans = (PLAN_HIGH, CAM_PLAN), (1 - PLAN_HIGH, row(*zip(shares, curves, strict=True)))
     # the cam as it stands at first, with the title and the sheet of the task
     scene = replace(parse(scene_text(cam, 0.0), task.name), title=task.title, sheet=task.sheet)
-    page = PanelPage(paper, scene, row((PLAN_WIDE, plan), law))
+    page = PanelPage(paper, scene, row((PLAN_WIDE, column(*plans) if curves else CAM_PLAN), law))
     window = fit_view(extent(drawing), page.room(CAM_PLAN), PLAN_MARGIN_MM)
     figures = CamFigures(cam, page)
     program, words = drawing.values.drawing.program, CamWords(cam)
@@ -168,35 +168,36 @@ class CamFigures:
         rect, shown = self.page.room(LAW_PLAN), diagrams(self.cam)
         letters = self.page.letters.text / SIZE  # of large sheets are larger, and the numbers beside the diagrams wider
         room = rect.inset(LEFT, FOOT, RIGHT * letters, 0.0)
-        high, drawn, shocks = room.height / len(shown), list[Diagram](), list[Item]()
-        for k, one in enumerate(shown):
+        high, stack, shocks = room.height / len(shown), list[Diagram](), list[Item]()
+        for k, quantity in enumerate(shown):
             top = room.top - k * high
-            drawn.append(self._diagram(one, Rect(room.left, top - high + 2.0, room.right, top - BETWEEN)))
-            if one.order == SOFT:
-                shocks += self._shocks(drawn[-1].frame)
+            stack.append(self._diagram(quantity, Rect(room.left, top - high + 2.0, room.right, top - BETWEEN)))
+            if quantity.order == SOFT:
+                shocks += self._shocks(stack[-1].frame)
         bounds = [float(bound) for bound in self.cam.law.bounds]
-        first, last = drawn[0].frame.rect, drawn[-1]
-        drawn[0] = replace(drawn[0], uprights=bounds, uprights_down=first.bottom - last.frame.rect.bottom)
-        drawn[-1] = replace(drawn[-1], x=QuantityAxis(
+        first, last = stack[0].frame.rect, stack[-1]
+        stack[0] = replace(stack[0], uprights=bounds, uprights_down=first.bottom - last.frame.rect.bottom)
+        stack[-1] = replace(stack[-1], x=QuantityAxis(
             "φ", label=arrange("φ, °"), values=[bounds[0], bounds[-1], *bounds[1:-1]],
             shift=(RIGHT * letters, 2.4 * self.page.letters.text - 1.6)))
-        return PanelFigure(rect, drawn, strokes=shocks)
+        return PanelFigure(rect, stack, strokes=shocks)
 
-    def _diagram(self, one: TurnDiagram, rect: Rect) -> Diagram:
+    def _diagram(self, quantity: TurnDiagram, rect: Rect) -> Diagram:
         """One quantity: its curve piece by piece with its jumps, and its extremes beside it."""
         law = self.cam.law
-        parts = [(angles, np.asarray(one.values(angles, piece), float)) for piece in law.stretches
+        samples = [(angles, np.asarray(quantity.values(angles, piece), float)) for piece in law.stretches
                  for angles in [piece.divide(SAMPLES)]]
-        (top, most), (foot, depth) = law.extremum(one.values), law.extremum(lambda a, piece: -one.values(a, piece))
+        (top, most), (foot, depth) = (law.extremum(values) for values in (
+            quantity.values, lambda a, piece: -quantity.values(a, piece)))
         low, high = min(0.0, -depth), max(0.0, most)
-        still = high - low <= JUMP_TOL * one.size
-        if still or (one.order == SOFT and self._hard):
-            high = max(high, -low, one.size if still else 0.0)
+        still = high - low <= JUMP_TOL * quantity.size
+        if still or (quantity.order == SOFT and self._hard):
+            high = max(high, -low, quantity.size if still else 0.0)
             low = -high
         frame, least = Frame.fit_rect(rect, (0.0, 360.0), (low, high)), JUMP_TOL * (high - low)
-        curves = [DrawnCurve(*part, one.pen) for part in parts]
+        curves = [DrawnCurve(*piece, quantity.pen) for piece in samples]
         curves += [DrawnCurve((angles[-1],) * 2, (before[-1], after[0]), JUMP) for (angles, before), (_, after) in
-                   pairwise([*parts, parts[0]]) if abs(after[0] - before[-1]) > least]
+                   pairwise([*samples, samples[0]]) if abs(after[0] - before[-1]) > least]
         size, above, labels = self.page.letters.text, math.inf, list[Label]()
         for angle, value in ((top, most), (foot, -depth)):
             if abs(value) > least:
@@ -205,9 +206,10 @@ class CamFigures:
                 beside = y if abs(y) > size else math.copysign(size, value)  # clear of the axis
                 beside = above = min(beside, above - size)
                 labels.append(Label(360.0, value, digits(value), (1.2, beside - y - CAPS * size / 2)))
-        label = arrange("{0} = 0", one.letter) if still else None
+        label = arrange("{0} = 0", quantity.letter) if still else None
         return Diagram(frame, QuantityAxis(numbers=False),
-                       QuantityAxis(one.letter, one.measure, numbers=False, head=False, label=label), curves, labels)
+                       QuantityAxis(quantity.letter, quantity.measure, numbers=False, head=False, label=label), curves,
+                       labels)
 
     @property
     def _hard(self) -> bool:
@@ -231,8 +233,8 @@ class CamFigures:
         touches the curve where contact is nearest to being lost, or crosses it where that is lost."""
         loaded, rect = LoadedCam(self.cam), self.page.room(SPRING_PLAN)
         c, preload, _, at = loaded.spring
-        pieces = [(one.value_at(angles), loaded.lack(angles, one)) for one in self.cam.law.stretches
-                  for angles in [one.divide(SAMPLES)]]
+        pieces = [(stretch.value_at(angles), loaded.lack(angles, stretch)) for stretch in self.cam.law.stretches
+                  for angles in [stretch.divide(SAMPLES)]]
         top, bounds = lift(self.cam), [float(bound) for _, lack in pieces for bound in (lack.min(), lack.max())]
         ends = preload, preload + c * top
         frame = Frame.fit_rect(rect.inset(LEFT + RIGHT / 2, FOOT, RIGHT, BETWEEN), (0.0, top),
@@ -290,8 +292,8 @@ class CamFigures:
         window = self._window([0j, *(complex(z) for _, A, E in pieces for z in (*A, *E))], WORDS_BESIDE_MM)
         at = window.spot
         items: list[Item] = [Polyline(AXIS, "ruling", None, tuple(at(z) for _, A, _ in pieces for z in A))]
-        for one, A, E in pieces:
-            moving = one.value_at((float(one.start) + float(one.end)) / 2, 1)
+        for stretch, A, E in pieces:
+            moving = stretch.value_at((float(stretch.start) + float(stretch.end)) / 2, 1)
             if abs(moving) > STILL_RATE * lift(self.cam):
                 items += [Polyline(pens.THIN, "plates", None, (at(A[k]), at(E[k]))) for k in range(0, SAMPLES + 1, 10)]
                 items.append(Polyline(RISE if moving > 0 else BACK, "links", None, tuple(map(at, E))))
@@ -319,21 +321,21 @@ class CamFigures:
             """A place by x, laid off from the path, and by its height over A0."""
             return complex(pair.sense * (pair.offset - x), pair.depth + s)
 
-        for one, way, words in ((where.rise, 1, RISING), (where.back, -1, RETURNING)):
-            if one is not None:
-                foot, top, tip = (place(way * (one.intercept + one.slope * s), s) for s in (
-                    -1.3 * pair.depth, float(max(self.cam.law.lifts)), float(self.cam.law.value_at([one.angle])[0])))
-                yield foot, top, 0j, tip, words(digits(math.degrees(math.atan(one.slope))))
+        for limit, sense, words in ((where.rise, 1, RISING), (where.back, -1, RETURNING)):
+            if limit is not None:
+                foot, top, tip = (place(sense * (limit.intercept + limit.slope * s), s) for s in (
+                    -1.3 * pair.depth, float(max(self.cam.law.lifts)), float(self.cam.law.value_at([limit.angle])[0])))
+                yield foot, top, 0j, tip, words(digits(math.degrees(math.atan(limit.slope))))
         if where.back is not None and abs(where.corner[0] - pair.offset) > OFFSET_TOL * pair.base:
             points["O_m"] = place(where.corner[0], -where.corner[1])
 
     def _tangents(self) -> Iterator[tuple[complex, complex, complex, complex, Said]]:
         """The lines from the centre that touch the curve, where the pressure angle is largest."""
         pair: Any = self.cam.pair
-        for way, words in ((1, RISING), (-1, RETURNING)):
-            angle, size = self.cam.steepest[way]
-            piece = next((one for one in self.cam.law.stretches if way * one.value_at(angle, 1) > 0
-                          and one.start <= angle <= one.end), None)
+        for sense, words in ((1, RISING), (-1, RETURNING)):
+            angle, size = self.cam.steepest[sense]
+            piece = next((stretch for stretch in self.cam.law.stretches if sense * stretch.value_at(angle, 1) > 0
+                          and stretch.start <= angle <= stretch.end), None)
             if piece is not None and size > 0:
                 A, A1, *_ = pair.path(lifts_of(self.cam.law, piece, angle))
                 tip = complex(A + 1j * pair.sense * A1)
@@ -341,16 +343,16 @@ class CamFigures:
 
     def _curve_z(self) -> PanelFigure:
         """The curve of s over z = s'', and its tangent of 45 degrees, which cuts the path in the least centre."""
-        pieces = [(one, one.value_at(angles, 2) + 1j * one.value_at(angles)) for one in self.cam.law.stretches
-                  for angles in [one.divide(SAMPLES)]]
+        pieces = [(stretch, stretch.value_at(angles, 2) + 1j * stretch.value_at(angles))
+                  for stretch in self.cam.law.stretches for angles in [stretch.divide(SAMPLES)]]
         base, curve = self.cam.pair.base, np.concatenate([ends for _, ends in pieces])
         lowest = float((-(curve.imag + curve.real)).max())
         points = {"A_0": 0j, "O": -1j * base}
         window = self._window([*curve, *points.values()])
         at, reach = window.spot, -float(curve.real.min())
         items: list[Item] = [
-            Polyline(BACK if one.value_at((float(one.start) + float(one.end)) / 2, 1) < 0 else RISE, "links", None,
-                     tuple(map(at, ends))) for one, ends in pieces]
+            Polyline(BACK if stretch.value_at((float(stretch.start) + float(stretch.end)) / 2, 1) < 0 else RISE,
+                     "links", None, tuple(map(at, ends))) for stretch, ends in pieces]
         limit, end = at(-1j * lowest), at(complex(-reach, reach - lowest))
         items += [Polyline(AXIS, "ruling", None, (at(points["O"]), at(1j * float(curve.imag.max())))),
                   Polyline(TANGENT, "plates", None, (limit, end)),
@@ -427,7 +429,7 @@ class CamPlan:
         for side in (-ROD, ROD):
             yield from symbols.ground_line((x + side, top - STEM / 3 - HALF), (x + side, top - STEM / 3 + HALF), -side)
         if follower.flat:
-            low, high = (part * scale for part in cam.reach)
+            low, high = (end * scale for end in cam.reach)
             yield Polyline(FIRST, "blocks", None, ((x - high - 2, A[1]), (x - low + 2, A[1])))
         else:
             yield symbols.tracer(A)
@@ -437,8 +439,8 @@ class CamPlan:
         cam = self.drawing.cam
         for k, z in enumerate(self.drawing.positions("A")):
             if k or cam.task.follower.oscillates:
-                part = 1 + cam.roller / (abs(z) or 1.0) + NUMBER_GAP_MM / ((abs(z) or 1.0) * self.window.scale)
-                yield from self.page.text.backed_text(self.window.spot(part * z), str(k), middle=True)
+                outwards = 1 + cam.roller / (abs(z) or 1.0) + NUMBER_GAP_MM / ((abs(z) or 1.0) * self.window.scale)
+                yield from self.page.text.backed_text(self.window.spot(outwards * z), str(k), middle=True)
 
     def _letters(self, O: Spot) -> Iterator[Item]:
         """The letters of the division at which the follower rises fastest, and of the centre: lines break off at them,
@@ -506,8 +508,8 @@ class CamWords:
             yield said("Offset: {0} {1}", digits(cam.pair.offset, 6), length)
         if isinstance(cam.pair, Rolled):
             names = {1: said("rise"), -1: said("return")}
-            for way, (angle, size) in cam.steepest.items():
-                yield said("Largest pressure angle of the {0}: {1}° at {2}°", names[way], digits(size), digits(angle))
+            for sense, (angle, size) in cam.steepest.items():
+                yield said("Largest pressure angle of the {0}: {1}° at {2}°", names[sense], digits(size), digits(angle))
         angle, size = cam.narrowest
         where = said("path of the roller's centre") if cam.roller else said("profile")
         yield said("Smallest radius of curvature of the {0}: {1} {2} at {3}°", where, digits(size), length,

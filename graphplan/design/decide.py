@@ -132,10 +132,10 @@ class Alternatives:
         looked_at = self.by_cost()
         drawable = [candidate for candidate in looked_at if candidate.is_drawable]
         yield from (self._with_notes(candidate, len(looked_at)) for candidate in drawable)
-        known = {candidate.design.ways for candidate in looked_at}
+        ways_looked_at = {candidate.design.ways for candidate in looked_at}
         are_open = not self.wishes.ways and all(candidate.drawing.planned for candidate in looked_at)
         for way in self.plan.all_ways() if are_open else ():
-            if way.choices not in known and (further := self._look_at(replace(self.first, ways=way.choices))):
+            if way.choices not in ways_looked_at and (further := self._look_at(replace(self.first, ways=way.choices))):
                 looked_at.append(further)
                 if further.is_drawable:
                     yield self._with_notes(further, len(looked_at))

@@ -58,11 +58,11 @@ def sizes(drawing: Construction) -> Sizes:
 def better_kappa(drawing: Construction) -> Fraction | None:
     """The kappa at which velocities, or from rest accelerations on the mechanism plan, are in proportion, where they
     are drawn too long or too short."""
-    longest, larger, turning = drawn = sizes(drawing)
+    longest, larger, turning = lengths = sizes(drawing)
     kappa, most = drawing.kappa, MAX_TURNING_OF_CRANK if drawing.ends_in_pose else LARGEST.turning
     if not longest and larger and _has_one_plan(drawing) and not SHORTEST <= larger <= LARGEST.velocity:
         return round_down(kappa * math.sqrt(GOOD.velocity / larger))
-    if drawn.are_within(LARGEST._replace(turning=most)):
+    if lengths.are_within(LARGEST._replace(turning=most)):
         if drawing.ends_in_pose or longest < LOST:
             return None
         longer = min(GOOD.velocity / longest, 1.0 / turning if turning else math.inf,
@@ -95,10 +95,10 @@ def better_phi(drawing: Construction) -> Number | None:
 def other_kappas(drawing: Construction) -> Iterator[Fraction]:
     """Yield other lengths of velocities within proportion, shorter ones first."""
     try:
-        drawn = sizes(drawing)
+        lengths = sizes(drawing)
     except ConstructionError:
         return
     for times in OTHER_LENGTHS:
         kappa = round_down(times * drawing.kappa)
-        if times < 1 or drawn.are_within(LARGEST_TRIED, float(kappa) / drawing.kappa):
+        if times < 1 or lengths.are_within(LARGEST_TRIED, float(kappa) / drawing.kappa):
             yield kappa

@@ -97,9 +97,9 @@ class Design:
     def keys(self) -> dict[str, Any]:
         """The keys of [sheet] that say it; of scales those that are decimal fractions."""
         has_forces = not {*FORCE_PLANS}.isdisjoint(self.words)
-        asked = {"plan": self.plan, "method": self.method, "inertia": self.inertia if has_forces else "",
-                 "strict": self.strict}
-        return {key: value for key, value in asked.items() if value} | self.chosen_keys
+        wishes = {"plan": self.plan, "method": self.method, "inertia": self.inertia if has_forces else "",
+                  "strict": self.strict}
+        return {key: value for key, value in wishes.items() if value} | self.chosen_keys
 
     @property
     def chosen_keys(self) -> dict[str, Any]:

@@ -226,7 +226,7 @@ class StackDesk:
 
     def sheet_keys(self) -> dict[str, Any]:
         """The keys of [sheet] by which the sheets of the class were drawn, and the pencil of this run."""
-        if conflicting := [name for name in (*SHEET_OPTIONS, "at") if getattr(self.options, name)]:
+        if conflicting := [name for name in (*SHEET_OPTIONS, "at") if getattr(self.options, name, None)]:
             raise Refused(f"--{conflicting[0]}", f"the sheets of this class were drawn as its {REGISTER_FILE} says",
                           "leave it out")
         kept = {name: kind(value) for name, kind in SHEET_OPTIONS.items()

@@ -155,7 +155,7 @@ class Normal(MotionPlan):
         name = self.pose.letter_of_point(point).lower()
         if first == link and not home[1]:
             return name
-        return self.net.numbered(point, link).lower() or f"{name}({link})"
+        return self.net.coincident_name(point, link).lower() or f"{name}({link})"
 
     def _crank_figure(self, link: str, point: str) -> Mark:
         """The figure of a crank is drawn on the crank itself: its points towards the pivot, as far as omega bids."""

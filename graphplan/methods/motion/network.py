@@ -166,15 +166,14 @@ class Network:
         found = {}
         for slide in (slide for slide in self.all_slides if slide.at not in self.wandering):
             at = self.name(slide.at)
-            marks = {f"{slide.at}{slide.along}", self.numbered(slide.at, slide.along)}
+            marks = {f"{slide.at}{slide.along}", self.coincident_name(slide.at, slide.along)}
             for name in self.links[slide.along]:
                 if name in marks and name != at and self.spot(name) == self.spot(at):
                     found[at, slide.along] = name
         return found
 
-    def numbered(self, point: str, link: str) -> str:
-        """A point that is called after one of its links, such as A1, as that of another link under it: A3; empty of
-        others."""
+    def coincident_name(self, point: str, link: str) -> str:
+        """The name of the point of a link under one that is called after its own link: A3 under A1; empty of others."""
         letters = (point.removesuffix(own) for own in self.links_of.get(self.name(point), ()) if point.endswith(own))
         return next((f"{letter}{link}" for letter in letters if letter.isalpha()), "")
 

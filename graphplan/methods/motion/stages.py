@@ -137,9 +137,9 @@ class MotionStages:
     def end(self, name: str, place: BodyPoint) -> str:
         """The letter of the end of a place whose point has this name."""
         on_link = place[1] if place[1] in self.net.body else ""
-        numbered = self.net.numbered(name, on_link) if on_link else ""
-        letter = numbered or name
-        return self.ending.format(letter.lower(), letter) + (f"({on_link})" if on_link and not numbered else "")
+        coincident = self.net.coincident_name(name, on_link) if on_link else ""
+        letter = coincident or name
+        return self.ending.format(letter.lower(), letter) + (f"({on_link})" if on_link and not coincident else "")
 
     def name(self, point: str, link: str = "") -> str:
         """Name of a point, or of the point of a link's plane that coincides with it: B2 of link 2, if that name is
@@ -148,8 +148,8 @@ class MotionStages:
         if link not in self.net.links or point in self.letters:
             return name
         together = f"{name}{'0' if link == FRAME else link}"
-        if (numbered := self.net.numbered(name, link)) and numbered not in self.net.scene.points:
-            return numbered
+        if (coincident := self.net.coincident_name(name, link)) and coincident not in self.net.scene.points:
+            return coincident
         plain = name.isalpha() and together[len(name) :].isdigit() and together not in self.net.scene.points
         return together if plain else f"{name}({link})"
 

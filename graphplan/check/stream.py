@@ -239,8 +239,8 @@ def _prove_pose(pose: PoseBatch, drawing: Construction, ours: Readings, worst: f
     """The differences of one pose that is sound, by group: relative to the proven bounds, or without proven bounds
     relative to the condition; empty for a pose that is not sound.
 
-    A pose of a cycle is known to rounding of the mechanism, and so are its numbers: those that are negligible relative
-    to the largest of their kind count relative to that one.
+    A pose of a cycle is known to rounding of the mechanism, and so are its numbers: differences that are negligible
+    relative to the largest of their kind count relative to that one.
     """
     scene = single_pose(pose.posed_scene)
     try:
@@ -258,10 +258,9 @@ def _prove_pose(pose: PoseBatch, drawing: Construction, ours: Readings, worst: f
     for kind, named in numbers.items():
         scale = largest[kind_of(kind).group] / weight(drawing, kind)
         for number in (number for vector in named.values() for number in vector):
-            nothing = number.near and abs(number.value) <= ROUNDING_TOL * scale
-            if not (number.close or nothing or number.gap <= SAFETY_FACTOR * (number.bound - number.gap)):
+            if not (number.close or number.near or number.gap <= SAFETY_FACTOR * (number.bound - number.gap)):
                 return {}
-            gap = number.gap / scale if nothing else number.relative("gap")
+            gap = number.gap / scale if number.near else number.relative("gap")
             proven[kind_of(kind).group] = max(proven[kind_of(kind).group], float(gap))
     return proven
 

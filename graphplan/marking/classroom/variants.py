@@ -278,9 +278,14 @@ class Draws:
         return values
 
     def _ordered_places(self, path: str) -> list[int]:
-        """The places of a number's values, the next first."""
+        """The places of a number's values, the next first; a value that is often rejected counts as given out."""
         values, uses, draws = self.choices[path], self._kept[path], self._drawn[path]
-        return sorted(self._walks[path], key=lambda place: (uses[values[place]], draws[values[place]]))
+
+        def rank(place: int) -> tuple[int, int]:
+            value = values[place]
+            return uses[value] + (draws[value] - uses[value]) // measures.REJECTIONS_PER_USE, draws[value]
+
+        return sorted(self._walks[path], key=rank)
 
     @property
     def is_empty(self) -> bool:

@@ -197,8 +197,8 @@ class OtherDesigns:
             yield from self._gathered_readings(drawing)
 
     def _gathered_readings(self, drawing: Construction) -> Iterator[SheetReading]:
-        """Yield the design with accelerations from a pole, if any is drawn, but velocities from their points, whose ends
-        are called as the student does."""
+        """Yield the design with accelerations from a pole, if any is drawn, but velocities from their points, whose
+        ends are called as the student does."""
         accelerations = {bare_label(step.name) for step in drawing.drawn.steps if step.panel == ACCELERATION_PLAN}
         if not any(bare_label(trace.label) in accelerations - {""} for trace in self.labelled.traces):
             return

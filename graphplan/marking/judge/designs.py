@@ -30,10 +30,9 @@ from graphplan.marking.judge.student_sheet import Fit
 from graphplan.marking.tolerances import VECTOR_END_RATIO
 from graphplan.marking.traces import PlanFrame, Submission, Trace, as_spot, spell
 from graphplan.mechanism.model import FRAME
-from graphplan.mechanism.sections import MOTION_PLANS
 from graphplan.methods.construction import Construction
 from graphplan.methods.draw import draw
-from graphplan.methods.panels import VELOCITY_PLAN
+from graphplan.methods.panels import ACCELERATION_PLAN, MECHANISM, VELOCITY_PLAN
 from graphplan.methods.ways import Plan
 from graphplan.phrases import Said, said
 from graphplan.sheet.layout.composition import Composition
@@ -41,8 +40,7 @@ from graphplan.sheet.layout.composition import Composition
 SENSES: Mapping[int, tuple[Said, ...]] = {  # by the quarter turns from the task's velocities
     0: (), 2: (said("velocities turned clockwise"),), 3: (said("true velocities at their points"),),
 }
-POLAR, ORTHOGONAL = "polar", "orthogonal"
-OTHER_PLANS: Mapping[str, Said] = {POLAR: said("a polar plan")}
+POLAR, POLAR_REMARK = "polar", said("a polar plan")
 
 
 def unmirror(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil) -> SheetReading:
@@ -155,8 +153,7 @@ class OtherDesigns:
         submission = self._turned_back_submission() if quarters == 3 else self.labelled
         if drawing := self._at_tempo(factor * (-1 if quarters == 2 else 1), submission):
             yield self._departing(self.task, *SENSES[quarters], drawing=drawing, submission=submission,
-                                  scaled=self.task.scaled if factor == 1 else "mechanism",
-                                  departs=(factor != 1) + (quarters != 0))
+                                  scaled="" if factor == 1 else MECHANISM, departs=(factor != 1) + (quarters != 0))
 
     def _at_tempo(self, size: Fraction, submission: Submission) -> Construction | None:
         """The construction with velocities so many times as long; every one that is marked ends in a mark of its own.
@@ -192,17 +189,19 @@ class OtherDesigns:
     def _readings_on_other_plans(self) -> Iterator[SheetReading]:
         """Yield designs with motion on polar plans, or accelerations alone on one, where the task has orthogonal
         velocities and asks for no other."""
-        words = [word for word in self.task.drawing.design.words if word not in MOTION_PLANS]
         if not self.task.drawing.turned or (self.plan and POLAR not in self.plan):
             return
         with suppress(GraphplanError):
-            drawing = self._redraw(plan=",".join((POLAR, *words)))
-            yield self._departing(self.task, OTHER_PLANS[POLAR], drawing=drawing, scaled=VELOCITY_PLAN)
+            drawing = self._redraw(plan=self.task.drawing.design.on_polar_plans)
+            yield self._departing(self.task, POLAR_REMARK, drawing=drawing, scaled=VELOCITY_PLAN)
             yield from self._gathered_readings(drawing)
 
     def _gathered_readings(self, drawing: Construction) -> Iterator[SheetReading]:
-        """Yield the design with accelerations from a pole, but velocities from their points, whose ends are called as
-        the student does."""
+        """Yield the design with accelerations from a pole, if any is drawn, but velocities from their points, whose
+        ends are called as the student does."""
+        accelerations = {bare_label(step.name) for step in drawing.drawn.steps if step.panel == ACCELERATION_PLAN}
+        if not any(bare_label(trace.label) in accelerations - {""} for trace in self.labelled.traces):
+            return
         ends_at_points = {point: place for point in self.task.drawing.scene.points
                           if (place := self._find_mark(point)) is not None}
         drawing = call_ends(drawing, {point: self.labelled.traces[place].label
@@ -212,7 +211,7 @@ class OtherDesigns:
         ends = {point: place for point in ends_at_points if (place := others._find_mark(point)) is not None}
         if gathered := gather_velocities(drawing, named, self.frame, ends):
             submission, sense = gathered
-            yield self._departing(self.task, sense, OTHER_PLANS[POLAR], drawing=drawing, submission=submission,
+            yield self._departing(self.task, sense, POLAR_REMARK, drawing=drawing, submission=submission,
                                   scaled=VELOCITY_PLAN)
 
     # ---- letters and constructions ---------------------------------------------------------------------------------
@@ -236,8 +235,8 @@ class OtherDesigns:
 
 
 def find_orphans(drawing: Construction, submission: Submission) -> list[int]:
-    """The places of the marks that are called as ends of velocities
-    for which the construction has no mark of its own, as they end in another point."""
+    """The places of the marks that are called as ends of velocities for which the construction has no mark of its own,
+    as they end in another point."""
     step_labels = {bare_label(step.name) for step in drawing.drawn.steps if step.name}
     names = {f"v{point.casefold()}" for point in drawing.velocity} - step_labels if drawing.turned else set()
     return [place for place, trace in enumerate(submission.traces)

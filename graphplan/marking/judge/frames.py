@@ -239,13 +239,15 @@ class FrameFinder:
 
     def printed_panels(self, fits: Mapping[str, Fit]) -> frozenset[str]:
         """Plans of the task's sheet on which this drawing lies as printed, by these expected frames: the mechanism at
-        its printed scale, and a plan at its printed place."""
+        its printed scale, and a plan at its printed place, or most marks of another one at the printed scale."""
         views, mechanism = self.reading.task.views, fits[MECHANISM].frame
         if self.reading.on_task is None or not self.reading.has_printed_scale(mechanism):
             return frozenset()
         panels = [panel for panel in self.panels[1:] if panel in views and panel not in self.submission.frames]
-        is_printed = any(self._is_at_printed_place(panel, fits) for panel in panels)
-        return frozenset((MECHANISM, *panels)) if is_printed else frozenset()
+        if any(self._is_at_printed_place(panel, fits) for panel in panels):
+            return frozenset((MECHANISM, *panels))
+        witnesses = {panel for panel in panels if not self.reading.departs and self._has_printed_marks(panel, fits)}
+        return frozenset(panel for panel in (MECHANISM, *panels) if witnesses - {panel})
 
     def _is_at_printed_place(self, panel: str, fits: Mapping[str, Fit]) -> bool:
         """Whether a plan, of which a mark is labelled, lies to the mechanism as it is printed."""
@@ -254,6 +256,14 @@ class FrameFinder:
         origin = mechanism.frame.origin + offset * mechanism.frame.unit / abs(mechanism.frame.unit)
         tolerance = measures.SURE_SIGMAS * math.hypot(2.0 * self._label_deviation, mechanism.turn * abs(offset))
         return bool(self._labelled_pairs(panel)) and abs(fits[panel].frame.origin - origin) < tolerance
+
+    def _has_printed_marks(self, panel: str, fits: Mapping[str, Fit]) -> bool:
+        """Whether most marks lie to their plan's beginning as they do at the printed scale."""
+        unit = fits[panel].frame.unit
+        plan, sheet = self._plan_anchor(panel, unit) or (0j, 0j)
+        agreements = [abs(own / unit - 1) < measures.SAME_FRAME_SHARE + 3 * sigma
+                      for own, sigma in self._anchored_units(panel, plan, sheet)]
+        return 2 * sum(agreements) > len(agreements)
 
     def _plan_anchor(self, panel: str, unit: complex) -> Pair | None:
         """Labelled beginning of a plan; if its label may be another's or is missing, the mark with which most others
@@ -473,15 +483,15 @@ def frame_turn(fit: Fit, unit: complex) -> float:
     return 0.0 if ratio.real > 0 and abs(ratio.imag) < sine * abs(ratio) else cmath.phase(ratio)
 
 
-def departures(own: Collection[Fit], others: int = 0) -> float:
-    """Count of mistakes for plans of a printed sheet in frames of their own, and for `others`, the scale and sense of
-    velocities: plans of one scale count once, and the first of them more than a wrong vector."""
+def departures(own: Collection[Fit], others: int = 0, *, is_printed: bool) -> float:
+    """Count of mistakes for plans in frames of their own, and for `others`, the scale and sense of velocities: plans of
+    one scale count once, and the first, where its scale is printed, more than a wrong vector."""
     scales, redirected = list[Fit](), sum(not fit.aligned for fit in own)
     for fit in own:
         if fit.aligned and all(frame_stretch(fit, known.frame.unit) != 1.0 for known in scales):
             scales.append(fit)
     rescaled = len(scales) + others
-    first = measures.REDIRECTED_STEPS - measures.RESCALED_STEPS if rescaled else 0.0
+    first = measures.REDIRECTED_STEPS - measures.RESCALED_STEPS if is_printed and rescaled else 0.0
     return measures.REDIRECTED_STEPS * redirected + measures.RESCALED_STEPS * rescaled + first
 
 

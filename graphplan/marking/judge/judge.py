@@ -5,10 +5,11 @@ from __future__ import annotations
 import cmath
 import math
 import statistics
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
+from itertools import chain, combinations
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -176,7 +177,7 @@ class Judge:
                 if panel != MECHANISM and not fit.tied and panel in self.printed_panels]
         departs = self.reading.departs if MECHANISM in self.printed_panels else 0
         faults = self.judgement.fault_count
-        return faults.wrong + faults.strange_letters + self._unused_numbers + departures(fits, departs)
+        return faults.wrong + faults.strange_letters + self._unused_numbers + departures(fits, departs, is_printed=True)
 
     @property
     def has_faults(self) -> bool:
@@ -260,16 +261,32 @@ class Judge:
         return self._with_rivals(fits, register)
 
     def _with_rivals(self, fits: dict[str, Fit], register: FrameFinder) -> dict[str, Fit]:
-        """The frames of the plans that explain their own steps best."""
+        """The frames of the plans that explain their own steps best; of those of the printed sheet the ones with which
+        all of the drawing needs fewest mistakes, and that they are others counts as mistakes as well."""
+        best = self._fit_plans(fits, register, register.panels[1:])
         self.printed_panels = frozenset(panel for panel in register.printed_panels(fits)
                                         if panel == MECHANISM or not has_given_scale(self.reading, panel))
-        return self._fit_plans(fits, register)
+        least = self._mistakes_in(best, fits)
+        panels = [panel for panel, fit in best.items()
+                  if fit is not fits[panel] and panel in self.printed_panels][:measures.MAX_OWN_FRAMES]
+        free = {*register.panels[1:]} - {*panels}
+        for freed in chain.from_iterable(combinations(panels, count) for count in range(len(panels))):
+            tried = self._fit_plans(fits, register, {*free, *freed})
+            if (wrong := self._mistakes_in(tried, fits)) <= least:
+                least, best = wrong, tried
+        return best
 
-    def _fit_plans(self, fits: dict[str, Fit], register: FrameFinder) -> dict[str, Fit]:
-        """The frames of the plans that explain their own steps best, one after the other."""
+    def _mistakes_in(self, fits: Mapping[str, Fit], expected: Mapping[str, Fit]) -> float:
+        """Count of marks that are wrong in these frames, and of mistakes that these are beside the expected ones."""
+        wrong = count_wrong(self._start_matching(fits).match_until(len(self.drawing.drawn.steps)).matches)
+        departing = {panel: fit for panel, fit in fits.items() if fit is not expected[panel]}
+        return wrong + departures(departing.values(), is_printed=not self.printed_panels.isdisjoint(departing))
+
+    def _fit_plans(self, fits: dict[str, Fit], register: FrameFinder, freed: Collection[str]) -> dict[str, Fit]:
+        """The frames of the plans, of the freed ones those that explain their own steps best, one after the other."""
         plan_of_step, fits = register.plan_of_step, {**fits}
         start = self._start_matching(fits)
-        for panel in [panel for panel in register.panels[1:] if panel not in self.submission.frames]:
+        for panel in [panel for panel in register.panels[1:] if panel in freed and panel not in self.submission.frames]:
             end = len(plan_of_step) - plan_of_step[::-1].index(panel)
             start = start.fork(self._start_matching(fits)).match_until(plan_of_step.index(panel))
             matching = start.fork().match_until(end)

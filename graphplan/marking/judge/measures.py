@@ -84,6 +84,7 @@ MIN_CROSSING_SINE = 0.05  # the sine of the angle at which strokes hardly cross 
 
 SURE_SIGMAS = 4.0  # within which a mark, a vector or a claim agrees with what is known [defined]
 SAME_FRAME_SHARE = 0.02  # of themselves: by which frames of one scale, or of one direction, differ [practice]
+MAX_OWN_FRAMES = 3  # count: plans in frames of their own that are tried in those of the task, too [cost]
 MAX_RIVAL_FRAMES = 8  # count: other frames that are tried for a plan [cost]
 MAX_ANCHORS = 400  # count: unlabelled spots in which a mechanism is sought [cost]
 AGREED_SIGMAS = 2 * SURE_SIGMAS  # within which marks agree on where a plan lies: two of them may err [defined]

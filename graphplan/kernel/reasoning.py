@@ -95,9 +95,9 @@ class _Telling:
         taker = dict[int, Stage | None]()
         readers = {index: [step.index for step in self.program.steps if index in step.args] for index in steps}
         sources = {index: self.program.steps[index].args for index in steps}
-        for index, others in (*reversed(readers.items()), *sources.items()):
-            stages = {taker.get(step, self.stage_of[step]) for step in others if step not in self.finished} - {stage}
-            if stages and index not in taker:
+        for index, neighbours in (*reversed(readers.items()), *sources.items()):
+            stages = {taker.get(step, self.stage_of[step]) for step in neighbours if step not in self.finished}
+            if index not in taker and (stages := stages - {stage}):
                 taker[index] = next(one for one in self.unfinished if one in stages)
         return taker
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
 from itertools import permutations
 from random import Random
@@ -17,6 +18,7 @@ from graphplan.design.decide import construct
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Program
 from graphplan.kernel.stages import Equation, Knowledge, Stage
+from graphplan.mechanism.model import Find
 from graphplan.methods.construction import Construction
 from graphplan.methods.design import Design
 from graphplan.solver import solve as solve_rates
@@ -55,6 +57,23 @@ def test_a_form_is_named_in_the_title() -> None:
             "Normal acceleration of B about F, by the right triangle", "Velocity of C"} <= titles
     trial = construct(gp.load("alt-eight-link"), Design(method="trial")).drawn
     assert "Trial figure of link 3, locus of v_c" in {str(stage.title) for stage, _ in trial.stages}
+
+
+def test_forces_alone_speak_of_no_velocity() -> None:
+    """Where reactions alone are asked for, and no load needs the motion, no stage is of velocities or of a lever; a
+    plan that is asked for is drawn all the same."""
+    scene = replace(gp.load("jaanimets-10"), find=Find((), ()))
+    titles = {design.plan: [str(stage.title) for stage, _ in construct(scene, design).drawn.stages]
+              for design in (Design(), Design(plan="lever"))}
+    assert "R_23, R_04: equilibrium of links 3 and 4" in titles[""]
+    assert [title for title in titles[""] if "elocity" in title or "lever" in title] == []
+    assert [title for title in titles["lever"] if "lever" in title] != []
+
+
+def test_a_couple_follows_a_force_in_one_step() -> None:
+    """The moment of a couple with the arm of the force sought is added by its opposite, not by a product."""
+    steps = next(steps for stage, steps in program("jaanimets-10").stages if str(stage.title).startswith("T_04"))
+    assert [step.op.name for step in steps] == ["balance", "transfer"]
 
 
 def test_no_mark_is_drawn_for_the_size_of_a_trial_alone() -> None:

@@ -139,7 +139,8 @@ class ForcePolygon(FreeBodies):
         for force in self.acting(part, self.other_forces(part, site), site):
             if force.at is not pole:
                 span = with_sign((force.tail, force.head), -sign if backwards else sign)
-                balance = self._opposite if self._is_square(part, force, pole, X) else weigh
+                follows = mark is not first and self._is_square(part, force, pole, X)
+                balance = self._opposite if follows else weigh  # a first force has the words of the moment equation
                 mark = balance(force.at, *span, mark, why=why)
         if mark is first:
             return None
@@ -194,7 +195,8 @@ class ForcePolygon(FreeBodies):
         mark = first = self.polygon(part)[1]
         for force in self.acting(part, self.other_forces(part, site), site):
             if force.at is not Y:
-                balance = self._opposite if self._is_square(part, force, Y, R) else partial(self.board.balance, Y, R)
+                follows = mark is not first and self._is_square(part, force, Y, R)
+                balance = self._opposite if follows else partial(self.board.balance, Y, R)
                 mark = balance(force.at, *with_sign((force.tail, force.head), sign), mark)
         return None if mark is first else (Acting(R, first, mark), Acting(Y, mark, first))
 

@@ -34,7 +34,7 @@ CORE = {  # the commands of the core; leaves have further ones
     "handout": Command("teach", "graphplan.app.handout"),
     "completion": Command("share", "graphplan.app.completion", takes_scene=False),
 }
-RESULTS_ALONE = "list", "schema", "board", "completion"  # commands without remarks and progress, which need no --quiet
+WITHOUT_QUIET = "list", "schema", "completion", "board", "watch"  # results alone, or run while one looks on
 HELP = "help"
 RAW = argparse.RawDescriptionHelpFormatter
 
@@ -183,7 +183,7 @@ def parser(names: Sequence[str]) -> Parser:
             command.add_argument("scene", metavar="SCENE",
                                  help="a scene file, - for standard input, or a packaged scene")
         module.options(command)
-        if name not in RESULTS_ALONE:
+        if name not in WITHOUT_QUIET:
             command.add_argument("-q", "--quiet", action="store_true", help="no progress and no remarks, errors alone")
         command.set_defaults(run=module.run, quiet=False)
     return whole

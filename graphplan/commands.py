@@ -121,7 +121,7 @@ def _needed_command(word: str) -> Sequence[str]:
 
 def _unknown_option(command: str, words: Sequence[str]) -> Refused:
     """The refusal of words that no option takes: options that stand in the scene now, and slips of the pen."""
-    from graphplan.app.choices import IN_THE_SCENE
+    from graphplan.app.choices import IN_THE_SCENE, OF_A_MOTION
     from graphplan.mechanism.fields import suggestion
 
     option = next((word.partition("=")[0] for word in words if word.startswith("-")), "")
@@ -130,8 +130,9 @@ def _unknown_option(command: str, words: Sequence[str]) -> Refused:
     if command not in commands():
         return Refused(f"graphplan {command}", "no command is named before it", f"graphplan COMMAND ... {command}")
     option_names = [name for action in command_parser(command)._actions for name in action.option_strings]
-    if option in IN_THE_SCENE and "--set" in option_names:
-        path = IN_THE_SCENE[option]
+    paths = IN_THE_SCENE | OF_A_MOTION if command == "motion" else IN_THE_SCENE
+    if option in paths and "--set" in option_names:
+        path = paths[option]
         table, _, key = path.partition(".")
         return Refused(f"graphplan {command} {option}", f"this stands in the scene, in its table [{table}]",
                        f"{key} = ... there, or --set {path}=VALUE")

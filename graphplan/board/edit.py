@@ -168,7 +168,7 @@ class SceneEditor:
             write_key(links, name, text)
 
     def require_point(self, name: str) -> None:
-        """Fails with `Refused` where there is no such point."""
+        """Fail with `Refused` if the scene has no such point."""
         if name not in self.table("points"):
             raise Refused(f"point {name}", "there is no such point", "a point of the scene")
 

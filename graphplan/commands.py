@@ -35,7 +35,7 @@ CORE = {  # the commands of the core; leaves have further ones
     "handout": Command("teach", "graphplan.app.handout"),
     "completion": Command("share", "graphplan.app.completion", takes_scene=False),
 }
-RESULTS_ALONE = "list", "schema", "board", "completion"  # commands without remarks and progress, which need no --quiet
+WITHOUT_QUIET = "list", "schema", "completion", "board", "watch"  # results alone, or run while one looks on
 HELP = "help"
 RAW = argparse.RawDescriptionHelpFormatter
 
@@ -122,7 +122,7 @@ def _needed_command(word: str) -> Sequence[str]:
 
 def _unknown_option(command: str, words: Sequence[str]) -> Refused:
     """The refusal of words that no option takes: options that stand in the scene now, and slips of the pen."""
-    from graphplan.app.choices import IN_THE_SCENE
+    from graphplan.app.choices import IN_THE_SCENE, OF_A_MOTION
     from graphplan.mechanism.fields import suggestion
 
     option = next((word.partition("=")[0] for word in words if word.startswith("-")), "")
@@ -131,8 +131,9 @@ def _unknown_option(command: str, words: Sequence[str]) -> Refused:
     if command not in commands():
         return Refused(f"graphplan {command}", "no command is named before it", f"graphplan COMMAND ... {command}")
     option_names = [name for action in command_parser(command)._actions for name in action.option_strings]
-    if option in IN_THE_SCENE and "--set" in option_names:
-        path = IN_THE_SCENE[option]
+    paths = IN_THE_SCENE | OF_A_MOTION if command == "motion" else IN_THE_SCENE
+    if option in paths and "--set" in option_names:
+        path = paths[option]
         table, _, key = path.partition(".")
         return Refused(f"graphplan {command} {option}", f"this stands in the scene, in its table [{table}]",
                        f"{key} = ... there, or --set {path}=VALUE")
@@ -184,7 +185,7 @@ def parser(names: Sequence[str]) -> Parser:
             command.add_argument("scene", metavar="SCENE",
                                  help="a scene file, - for standard input, or a packaged scene")
         module.options(command)
-        if name not in RESULTS_ALONE:
+        if name not in WITHOUT_QUIET:
             command.add_argument("-q", "--quiet", action="store_true", help="no progress and no remarks, errors alone")
         command.set_defaults(run=module.run, quiet=False)
     return whole

@@ -72,9 +72,10 @@ class Messages:
             _write_stderr(f"\r{text:<{PROGRESS_WIDTH}}\r")
 
 
-# What options say that commands have no more, by name: where it stands in a scene.
+# Keys of a scene that readers take for options, by table.
 IN_THE_SCENE = {f"--{key}": f"sheet.{key}" for key in KEYS} | {
-    f"--{name}": f"flywheel.{name}" for name in ("speed", "closes")}
+    f"--{name}": f"flywheel.{name}" for name in ("speed", "unevenness", "closes")}
+OF_A_MOTION = {f"--{name}": f"run.{name}" for name in ("speed", "travel")}
 
 
 def count(option: str, least: int, most: int | None = None) -> Callable[[str], int]:

@@ -340,7 +340,7 @@ def _film(drawing: Construction, composition: Composition, moved: Loop, messages
         frames[k] = frame
         messages.progress(f"drawn: {len(frames)} of {len(reached)}" if len(frames) < len(reached) else "")
     if bare := sum(not drawn for _, drawn in frames.values()):
-        messages.remark(f"the mechanism alone, as no construction can be drawn there, in{bare} of {len(frames)} poses")
+        messages.remark(f"the mechanism alone, without a construction, in {bare} of {len(frames)} poses")
     poses, (each, name) = [k for k in moved.order if k in frames], travel_unit(drawing.scene)
     words = (arrange("{0}°" if name == "degrees" else "{0} {1}", digits(float(turn.travel[k]) / each), unit(name))
              for k in poses)

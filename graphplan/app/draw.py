@@ -39,7 +39,7 @@ def options(command: argparse.ArgumentParser) -> None:
                          help=f"dots per inch of a .png ({DEFAULT_DPI})")
     add_sheet(command)
     group = command.add_mutually_exclusive_group()
-    group.add_argument("--steps", metavar="A-B", help="steps A to B in ink, earlier ones in grey, and nothing later")
+    group.add_argument("--steps", metavar="A-B", help="steps A to B in ink over earlier ones in grey")
     group.add_argument("--strip", nargs="?", const="mark", choices=("mark", "step"),
                        help="a film strip: one picture for each lettered mark, or for each step")
     group.add_argument("--by", choices=("sheet", STAGED),

@@ -234,7 +234,7 @@ def _row(listed: re.Match[str]) -> str:
 
 
 def flush() -> None:
-    """Let go what others, such as argparse, have printed; fails as `write` does."""
+    """Flush what other code, such as argparse, has printed; fails as `write` does."""
     if sys.stdout is not None:
         write(b"")
 

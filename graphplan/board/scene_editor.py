@@ -155,12 +155,12 @@ class SceneEditor:
             write_key(links, name, text)
 
     def require_point(self, name: str) -> None:
-        """Fails with `Refused` where there is no such point."""
+        """Fail with `Refused` if the scene has no such point."""
         if name not in self.table("points"):
             raise Refused(f"point {name}", "there is no such point", "a point of the scene")
 
     def require_link(self, name: str) -> None:
-        """Fails with `Refused` where there is no such link."""
+        """Fail with `Refused` if the scene has no such link."""
         if name not in self.table("links"):
             raise Refused(f"link {name}", "there is no such link", "a link of the scene")
 

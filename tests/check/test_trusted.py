@@ -149,7 +149,7 @@ def test_a_pose_that_is_wrong_has_no_numbers(monkeypatch: pytest.MonkeyPatch, tm
     assert [line[:24] for line in err.splitlines() if "disagree" in line] == ["pose 1: the construction",
                                                                             "pose 2: the construction"]
     done = ran("cycle", "four-bar", "--positions", "12", "--animate", "film.svg")
-    assert "the mechanism alone, as no construction can be drawn there, in1 of 12 poses" in done.err
+    assert "the mechanism alone, without a construction, in 1 of 12 poses" in done.err
 
 
 # ---- many poses, block by block --------------------------------------------------------------------------------------

@@ -56,8 +56,8 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Class:
     speeds = [TASK.omega * share for share in (1, 1.02, 0.98, 0.96)]
     (at / "scene.toml").write_text(TASK.scene + f'[vary]\n"drive.0.omega" = {speeds}\n')
     (at / "names.csv").write_text("name\n" + "\n".join(STUDENTS))
-    done = ran("variants", at / "scene.toml", "--names", at / "names.csv", "--set", "sheet.plan=polar", "--jobs", "1",
-               "-q", "-o", at / "class")
+    done = ran("variants", at / "scene.toml", "--names", at / "names.csv", "--plan", "polar", "--jobs", "1", "-q", "-o",
+               at / "class")
     assert done.status == 0, done.err
     return Class(at / "class")
 

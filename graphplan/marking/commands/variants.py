@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.app.choices import Messages, add_language, add_paper, add_settings, count, load_source, sheet_keys
+from graphplan.app.choices import Messages, add_choices, add_language, add_paper, count, load_source, sheet_keys
 from graphplan.app.files import new_folder
 from graphplan.marking.classroom.class_files import MAX_VARIANTS, ClassRequest
 from graphplan.marking.classroom.class_variants import write_variants
@@ -35,7 +35,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--jobs", type=count("--jobs", 1), metavar="N", help="number of processes (all cores)")
     add_paper(command, "the sheets of the class (that of the scene)")
     add_language(command)
-    add_settings(command)
+    add_choices(command, method=False)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -43,5 +43,5 @@ def run(options: argparse.Namespace) -> int:
     new_folder(options.output)
     request = ClassRequest(options.count, options.names, options.seed, options.jobs, sheet_keys(options),
                            messages.remark, messages.progress)
-    write_variants(load_source(options), options.output, request)
+    write_variants(load_source(options, "plan"), options.output, request)
     return 0

@@ -310,7 +310,7 @@ class ReadSpots(list[tuple[Any, Any]]):
 
     @property
     def rim(self) -> Any:
-        """The circle through three."""
+        """The circle through three spots."""
         return _circle_through(*self)
 
 

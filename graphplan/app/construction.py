@@ -98,9 +98,9 @@ class WorkingDrawing(Construction):
 
     def _repr_svg_(self) -> str:
         """The sheet of a construction, drawn when a notebook asks."""
-        from graphplan.sheet import svg
+        from graphplan.app.pages import sheet_files
 
-        return svg(self)
+        return str(sheet_files(self.given_scene or self.scene, None, "svg").contents[0][1])
 
 
 def construct(scene: Scene, *, checked: bool = True, **options: Unpack[Keywords]) -> WorkingDrawing:

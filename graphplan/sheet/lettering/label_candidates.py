@@ -17,7 +17,7 @@ TASTE = 0.02  # among equals up and to the right, then on counter-clockwise: wha
 RINGS = np.array([(0.7, 0.0), (1.6, 0.8), (2.8, 2.0), (4.5, 4.0), (7.0, 7.0), (10.0, 11.0), (14.0, 16.0), (20.0, 24.0)])
 FINE_DISTANCES = np.array([0.7, 1.3, 2.0, 2.8, 3.6, 4.8, 6.2, 7.2, 10.5, 13.5, 17.0, 21.0, 26.0])  # mm
 FINE_RINGS = np.stack([FINE_DISTANCES, np.interp(FINE_DISTANCES, *RINGS.T)], axis=1)  # for second thoughts
-MAX_LEADER_MM, LONG_LEADER = 8.0, 120.0  # a longer one costs as much as three faults, but less than letters on others
+MAX_LEADER_MM, LONG_LEADER = 8.0, 100.0  # a longer one costs more than two faults, but less than letters on others
 LED, LEADER = 3.4, 30.0  # mm from which a thin leader ties a letter to its mark; its price where there are other spots
 EDGE = 5.0  # the price of standing at the panel's edge, where no ring fits
 SMALL_LETTERS, X_HEIGHT = frozenset("acegmnopqrsuvwxyz"), 0.547  # letters without ascenders, and their height

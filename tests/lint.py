@@ -25,10 +25,10 @@ PACKAGE = Path(graphplan.__file__).parent
 LIMITS = {
     "functions named by a bare participle or adverb, %": 0.5,
     "assignments to names that say nothing, %": 3.0,
-    "imports, % of the lines of code": 10.5,
+    "imports, % of the lines of code": 10.6,
     "lines of the longest file": 800,
     "numeric constants": 1150,
-    "tokens": 961_000,
+    "tokens": 950_000,
 }
 
 

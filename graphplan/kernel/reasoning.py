@@ -143,7 +143,7 @@ def _order_of_stages(program: Program, stage_of: Sequence[Stage | None]) -> list
 
     def enter(stages: Iterable[_StageToDraw]) -> None:
         for stage in stages:
-            heappush(ready.setdefault(stage.kind, []), (stage.first, stage))
+            heappush(ready.setdefault(stage.kind, []), (stage.recorded_at, stage))
 
     def preference(kind: _KindOfStage) -> tuple[bool | int, ...]:
         alike = kind.law in laws or not kind.laws_of_readers.isdisjoint(laws)
@@ -198,7 +198,7 @@ class _StageToDraw:
         return _KindOfStage(self.plan, self.part, self.law, self.title, laws)
 
     @property
-    def first(self) -> int:
+    def recorded_at(self) -> int:
         """The place of its first step where it was recorded."""
         return min(self.steps)
 

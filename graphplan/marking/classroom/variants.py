@@ -266,9 +266,9 @@ class Draws:
 
     def next_values(self, count: int) -> list[Values]:
         """So many draws, or as many as the grid still has."""
-        return [self._next() for _ in range(min(count, self.count - len(self._drawn_places)))]
+        return [self._draw_values() for _ in range(min(count, self.count - len(self._drawn_places)))]
 
-    def _next(self) -> Values:
+    def _draw_values(self) -> Values:
         places = next(places for places in product(*map(self._ordered_places, self.choices))
                       if places not in self._drawn_places)
         self._drawn_places.add(places)

@@ -144,7 +144,7 @@ class LabelCandidates:
         return np.asarray(np.hypot(*(self.ends - self.spots).T))
 
     @property
-    def far(self) -> Array:
+    def is_far(self) -> Array:
         """Whether the leader to each box is too long for the eye to follow."""
         return np.asarray(self.led & (self.distances > MAX_LEADER_MM))
 
@@ -190,7 +190,7 @@ def candidates(wishes: Sequence[Wish], rect: Rect, rings: Array = RINGS, ways: i
               & (right + AIR <= rect.right) & (top + AIR <= rect.top))
     row, _ = np.nonzero(inside)
     places = LabelCandidates(letter[at][row], boxes[inside], spots[at][row], cost[inside], led[row])
-    places.cost[places.far] += LONG_LEADER
+    places.cost[places.is_far] += LONG_LEADER
     return _with_outsiders(places, wishes, rect)
 
 

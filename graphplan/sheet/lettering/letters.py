@@ -82,8 +82,8 @@ class PlacedLetters:
         """The last place of each letter; where it is nearer to another mark a leader tells whose it is."""
         if not self.wishes:
             return []
-        prices = self._settled.prices
-        places = prices.found[self._settled.choice]
+        prices = self._relabelling.prices
+        places = prices.found[self._relabelling.choice]
         ink = places.boxes - OUTWARDS * [wish.slack for wish in self.wishes]
         places = replace(places, led=places.led | prices.marks.mistaken(replace(places, boxes=ink)))
         return [(wish, places[letter]) for letter, wish in enumerate(self.wishes)]
@@ -96,7 +96,7 @@ class PlacedLetters:
     @cached_property
     def _hidden(self) -> list[int]:
         """Indices of the letters that are hardly legible in their final places."""
-        return self._settled.faulty if self.wishes else []
+        return self._relabelling.faulty if self.wishes else []
 
     @property
     def hidden_items(self) -> list[Item]:
@@ -108,7 +108,7 @@ class PlacedLetters:
         `hidden`; lines that are not `fixed` break off at letters."""
         if not self.wishes:
             return
-        prices, choice = self._settled.prices, self._settled.choice
+        prices, choice = self._relabelling.prices, self._relabelling.choice
         hidden, led = self._hidden, prices.found.led[choice]
         faults = np.zeros(len(hidden))
         for part in (Lines(fixed), prices.marks, prices.surfaces) if hidden else ():
@@ -120,10 +120,10 @@ class PlacedLetters:
                 yield (x, y), kind
 
     @cached_property
-    def _settled(self) -> Relabelling:
+    def _relabelling(self) -> Relabelling:
         """The letters in their last places, after illegible and far ones were placed again."""
         settled = Relabelling(self.prices.away_from(self.taken), self.choice)
-        if self.rect and (misplaced := sorted(settled.misplaced)):
+        if self.rect and (misplaced := sorted(settled.misplaced_letters)):
             more = candidates([self.wishes[letter] for letter in misplaced], self.rect, FINE_RINGS,
                               FINE_DIRECTIONS).for_letters(misplaced)
             prices, new_index = settled.prices.with_more_places(more[~more.meeting(self.taken)])

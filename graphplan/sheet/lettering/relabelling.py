@@ -62,17 +62,17 @@ class Relabelling:
         return [int(letter) for letter in worst if fault[letter] >= FAULT]
 
     @property
-    def misplaced(self) -> list[int]:
+    def misplaced_letters(self) -> list[int]:
         """The letters that have faults, the worst first, and those at the ends of long leaders."""
         faulty = self.faulty
-        far = self.prices.found[self.choice].far.nonzero()[0].tolist()
+        far = self.prices.found[self.choice].is_far.nonzero()[0].tolist()
         return [*faulty, *(letter for letter in far if letter not in faulty)]
 
     def relabel(self, makes_room: bool = True) -> None:
-        """Move misplaced letters, with or without others making room, until no letter finds a better place."""
+        """Move misplaced_letters letters, with or without others making room, until no letter finds a better place."""
         self.left *= makes_room
         for _ in range(MAX_RELABELLINGS if len(self.prices.found.boxes) < MAX_PLACES else 0):
-            if not sum([self._try(letter) for letter in self.misplaced]):
+            if not sum([self._try(letter) for letter in self.misplaced_letters]):
                 return
 
     def _try(self, letter: int) -> bool:
@@ -98,7 +98,7 @@ class Relabelling:
             self._move({letter: int(numbers[cost.argmin()])})
             before = float(cost.min())
         place = self.prices.found[self.choice[letter]]
-        if self.left <= 0 or (before - place.cost < FAULT and not place.far):
+        if self.left <= 0 or (before - place.cost < FAULT and not place.is_far):
             return improved
         tempting = [k for k in alone.argsort(kind="stable")[:MAX_TRIES] if alone[k] < before - MIN_SAVING]
         return self._make_room(letter, numbers[tempting], before) or improved

@@ -70,7 +70,7 @@ REASONED = {
     "marking/scans/measures.py": word_set("6e-4 1e-5"),  # the grain of paper, and its stiffness, measured
 }
 MEASURED = r".{8,} \[(practice|measured|tuned|defined|cost|assumed)\]"  # how a number of the judge was found
-NO_MEASURES = word_set("SENSES FROM_POINTS DEEDS SURVIVAL STDERR PLACES REFERENCES OTHER_SIDES MB")
+NO_MEASURES = word_set("SENSES FROM_POINTS UNMARKED DEEDS SURVIVAL STDERR PLACES REFERENCES OTHER_SIDES MB")
 
 # Words that name an operation and something else as well: an element of SVG, a key of a scene, a kind of vector.
 OTHER_SENSES = word_set("line circle opening radius given pick begin balance couple normal conjugate crank")

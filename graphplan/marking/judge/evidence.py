@@ -111,6 +111,13 @@ class Evidence:
                                   and _is_same_ink(trace, self.traces[rival])}
         return self._twins[place]
 
+    def neighbours(self, place: int, panel: str, value: Sequence[float]) -> list[int]:
+        """The other traces that are so near to what one is that it could be they."""
+        places, off = self.nearby_traces(self.traces[place].kind, panel, value)
+        return [neighbour
+                for neighbour, far in zip(places, off, strict=True) if far < measures.BESIDE_MM
+                and neighbour != place]
+
     def nearby_traces(self, kind: str, panel: str, value: Sequence[float]) -> tuple[list[int], Any]:
         """The traces of a kind that may lie on a plan, and how far each is from a value in mm at most."""
         places = self.unlabelled_of(kind)

@@ -27,6 +27,8 @@ from graphplan.marking.judge.student_sheet import Residual, StudentSheet, plain_
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
 from graphplan.marking.traces import Trace
 
+UNMARKED = -1  # the place of a mark that is not to be seen, whatever else is there
+
 
 @dataclass(frozen=True)
 class Match:
@@ -40,6 +42,13 @@ class Match:
     residual: Residual | None = None
     mistake: Mistake | None = None
     weight: float = 0.0
+
+    @property
+    def sharp_weight(self) -> float:
+        """Weight reduced for a mark that might as well be elsewhere: if nearly every place fits, the mark is no
+        evidence."""
+        vague = self.residual.vague(measures.BESIDE_MM) if self.residual and self.state != WRONG else 0.0
+        return max(self.weight - vague, min(self.weight, 0.0))
 
 
 class Matching:
@@ -93,7 +102,8 @@ class Matching:
         """Take the next step for what it was found to be, else for what fits it."""
         if isinstance(found, Mistake):
             return self.take_mistake(found)
-        return self.take(self.find_place() if found is None else found)
+        place = self.find_place() if found is None else found
+        return self.take(None if place == UNMARKED else place)
 
     def try_repeat(self, other: Matching) -> bool:
         """Take the next step as another matching did, if its operands are equal and its trace is free."""
@@ -123,7 +133,13 @@ class Matching:
             best = self._find_origin(step, expected, basis) if begun else self._find_drawn(step, expected, basis)
             if best is not None:
                 return best
-        return lettered
+        return None if lettered is None or self._may_cross_by_chance(step, lettered) else lettered
+
+    def _may_cross_by_chance(self, step: Step, place: int) -> bool:
+        """Whether strokes that cross beside a letter, not far from its mark, need not be that mark."""
+        return self.traces[place].crossed and any(
+            self.residual(step, expected, place, basis).distance < measures.CHANCE_CROSSING_MM
+            for expected, basis in self._expected_values(step))
 
     def _find_origin(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """The dot, or else the end of a stroke, where the frame of a plan has its beginning: it is free, so that no
@@ -322,7 +338,7 @@ class Matching:
         self.erred = self.erred or match.state == WRONG
         if match.place is not None:
             self.used |= {match.place} | self.evidence.twins(match.place)
-        self.weight, self._now, self._off = self.weight + match.weight, None, {}
+        self.weight, self._now, self._off = self.weight + match.sharp_weight, None, {}
         return self
 
 

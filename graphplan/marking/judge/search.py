@@ -22,7 +22,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import KnownMarks, ends_at, unexplained_traces
-from graphplan.marking.judge.matching import Match, Matching
+from graphplan.marking.judge.matching import UNMARKED, Match, Matching
 from graphplan.marking.judge.mistakes import DEEDS, Mistake, lays_off_vector, possible_mistakes, value_of
 from graphplan.marking.judge.student_sheet import distance_apart, plain_value, weigh_mark
 from graphplan.marking.judge.verdict import RIGHT, WRONG
@@ -107,7 +107,7 @@ class Search:
             mine = rival.matches[-1]
             unseen = index != guess.index and mine.place is None and match.place is None
             if unseen or (index in rival.dead and match.place is not None):
-                rival.weight += min(match.weight - mine.weight, 0.0)
+                rival.weight += min(match.sharp_weight - mine.sharp_weight, 0.0)
             if rival.weight + hope < least:
                 return -math.inf
         return rival.weight + hope if has_own_ink(rival, rival.matches[guess.index]) else -math.inf
@@ -130,10 +130,37 @@ class Search:
         """All that may have been mistaken, with what a glance says for it."""
         quick = QuickScore(matching, {index: guess for index, guess in found.items() if isinstance(guess, Mistake)})
         uses = Counter(match.place for match in matching.matches)
+        lost = {arg for match in matching.matches if match.weight < 0 for arg in match.step.args}
         for match in matching.matches:
-            right = is_clear(match) and uses[match.place] == 1
-            if not right and not match.step.op.free and match.step.index not in {*found, *matching.labels}:
+            if match.step.index in found:
+                continue
+            if match.place is not None and (match.step.index in lost or uses[match.place] > 1):
+                yield from self._other_traces(matching, match)
+            right = is_clear(match) and uses[match.place] == 1 and not self._may_be_anothers(matching, match)
+            if not right and match.step.index not in matching.labels and not match.step.op.free:
                 yield from self._mistake_guesses(matching, quick, match)
+
+    def _may_be_anothers(self, matching: Matching, match: Match) -> bool:
+        """Whether a picture's dot, which has no letter, may be another mark's that is by chance where this should be:
+        one is left over near by."""
+        if not (matching.evidence.picture and match.step.op.gives == POINT and match.step.name):
+            return False
+        places, off = matching.evidence.nearby_traces(POINT, matching.sheet.plan_of_step[match.step.index],
+                                                      plain_value(match.expected))
+        return any(place not in matching.used for place, far in zip(places, off, strict=True)
+                   if far < measures.MAX_ASTRAY_MM)
+
+    def _other_traces(self, matching: Matching, match: Match) -> Iterator[Guess]:
+        """Yield the other traces that fit a step as well as the one taken; or the guess that its own is missing."""
+        step, home = match.step, matching.sheet.plan_of_step[match.step.index]
+        assert match.place is not None
+        for place in matching.evidence.neighbours(match.place, home, plain_value(matching.own[step.index])):
+            if matching.residual(step, match.expected, place, matching.own).fits(matching.chance):
+                yield Guess(step.index, place, self._first_mistake_odds - measures.FIRST_MISTAKE_ODDS,
+                            measures.NEIGHBOUR_PROMISE)
+        if step.op.gives == POINT:
+            yield Guess(step.index, UNMARKED, self._first_mistake_odds - measures.FIRST_MISTAKE_ODDS,
+                        measures.NEIGHBOUR_PROMISE)
 
     def _mistake_guesses(self, matching: Matching, quick: QuickScore, match: Match) -> Iterator[Guess]:
         """The mistakes that a step may be, those of the table and others: kinds are equally likely, and so is what is
@@ -153,7 +180,7 @@ class Search:
         for place, value in unmatched_traces(matching, step) if faint and match.weight < measures.CLEAR_ODDS else ():
             # a picture's dots are what was drawn: they are tried before all that is but thought of
             yield Guess(step.index, place, prior,
-                        measures.DOT_PROMISE if is_dot else quick.gain(step, value) + prior)
+                        measures.NEIGHBOUR_PROMISE if is_dot else quick.gain(step, value) + prior)
 
 
 def is_clear(match: Match) -> bool:
@@ -331,7 +358,7 @@ def likelihood(matching: Matching) -> float:
         if match.place is None and match.weight < 0 and match.mistake is None:
             left_out[matching.sheet.plan_of_step[match.step.index]] += 1
         else:
-            odds += match.weight
+            odds += match.sharp_weight
     return odds - sum(measures.MISSED_MARK_COST * (1 + math.log(count)) for count in left_out.values())
 
 

@@ -88,6 +88,11 @@ class Residual:
             allowed = math.sqrt(most * float(np.mean(self._axes_and_deviations[0])))
         return min(allowed, max(self.most, allowed / math.sqrt(self.coarse)))
 
+    def vague(self, sharp: float) -> float:
+        """Loss of evidence of a vague place relative to one within so many mm: the logarithm of the ratio of
+        tolerances."""
+        return float(np.sum(np.log(np.maximum(self._axes_and_deviations[0] / sharp**2, 1.0)))) / 2
+
     def fits(self, chance: float) -> bool:
         """Whether it is a slip of the pencil, however coarse that is."""
         most, square = squares_bound(len(self.off), chance), self.square

@@ -298,8 +298,13 @@ class Judge:
         return fits
 
     def _likeliest_fit(self, fits: Mapping[str, Fit], panel: str, found: Sequence[Fit]) -> Fit:
-        """The frame of a plan in which a drawing is likeliest."""
-        return max(found, key=lambda fit: self.matching({**fits, panel: fit}).weight)
+        """The frame of a plan in which a drawing is likeliest, with the likeliest mistakes if it needs any."""
+        matchings = [(self.matching({**fits, panel: fit}), fit) for fit in found]
+        matchings.sort(key=lambda way: -way[0].weight)
+        if sum(min(match.weight, 0.0) for match in matches_on(matchings[0][0], panel)) > measures.MIN_PLAN_ODDS:
+            return matchings[0][1]
+        return max((fit for _, fit in matchings[:measures.FRAMES_LOOKED_AT]),
+                   key=lambda fit: self.matching({**fits, panel: fit}, 1).weight)
 
     def _match_mechanism(self, mechanism: Fit, panels: Sequence[str]) -> Matching:
         """Match the mechanism alone, with the other plans out of reach."""

@@ -36,6 +36,7 @@ from graphplan.marking.traces import (
     Trace,
     bare_name,
     can_name_line,
+    first_spots,
     spell,
 )
 from graphplan.methods.construction import Construction
@@ -243,17 +244,51 @@ class Letters:
         """The drawing with the names of its marks."""
         assignment = assign_labels([self._weigh(word) for word in self.words], measures.NAMELESS_COST,
                                    measures.WRONG_NAME_COST)
+        astray = self._dots_astray(assignment)
         names: dict[int, list[tuple[str, bool]]] = {}
-        for word, place in zip(self.words, assignment, strict=True):
+        for order, (word, place) in enumerate(zip(self.words, assignment, strict=True)):
             is_extra = assignment.count(place) > 1 and not self.hidden.isdisjoint(word.steps.values())
-            if place is not None and not is_extra:
-                beside = not self._is_certain(word, place, assignment)
+            is_other = place in astray.values() and order not in astray
+            place = astray.get(order, place)
+            if place is not None and not (is_extra or is_other):
+                beside = order not in astray and not self._is_certain(word, place, assignment)
                 names.setdefault(place, []).extend((name, beside) for name in word.names)
         first = [replace(trace, label=names[place][0][0], beside=names[place][0][1]) if place in names else trace
                  for place, trace in enumerate(self.traces) if place < len(self.submission.traces) or place in names]
         more = [replace(self.traces[place], label=name, beside=beside) for place, several in names.items()
                 for name, beside in several[1:]]
         return replace(self.submission, traces=(*first, *more))
+
+    def _dots_astray(self, assignment: Sequence[int | None]) -> dict[int, int]:
+        """The dots that were set astray, by the letters whose they are: those stand where their mark should be, but
+        alone of all on their plan have no dot there, and about it is but one dot that is no mark."""
+        dots = {place for place, trace in enumerate(self.submission.traces) if trace.kind == POINT} - self._stray_dots
+        spots = first_spots([self.traces[place] for place in dots])
+        astray: dict[int, int] = {}
+        for panel in dict.fromkeys(self.plan_of_step):
+            marks = {order: at for order, at in self._letters_in_place.items()
+                     if self.plan_of_step[self.words[order].steps[POINT]] == panel}
+            lone = [order for order, at in marks.items()
+                    if assignment[order] not in dots and not (np.abs(spots - at) < measures.ASIDE_MM).any()]
+            if len(lone) == 1 and len(marks) >= measures.MIN_WITNESSES:
+                lettered = {place for order, place in enumerate(assignment) if place is not None and order != lone[0]
+                            and self._names_point(order) and self.words[order].wish[place] < measures.CLEAR_COST}
+                near = [place for place in self._stray_dots - lettered
+                        if abs(complex(*self.traces[place].spots[0]) - marks[lone[0]]) < measures.ASTRAY_DOT_MM]
+                astray |= {lone[0]: near[0]} if len(near) == 1 else {}
+        return astray
+
+    def _names_point(self, order: int) -> bool:
+        """Whether a word is a point's name, no number that may be of anything."""
+        return POINT in self.words[order].steps and not self.words[order].names[0].isdigit()
+
+    @property
+    def _letters_in_place(self) -> dict[int, complex]:
+        """The letters of points that stand where their marks should be, each with that spot."""
+        spots = {order: self._true_spots[word.steps[POINT]] for order, word in enumerate(self.words)
+                 if self._names_point(order)}
+        return {order: at for order, at in spots.items() if at is not None and _anchor(self.words[order].word).distance(
+            Point(at.real, at.imag)) < _letter_reach(self.words[order].word)}
 
     def _weigh(self, one: LetteredWord) -> Wish:
         """Marks that letters may name, with prices by distance and by the construction."""

@@ -91,7 +91,7 @@ def test_a_report_is_the_same_bytes_and_that_of_python(tmp_path: Path) -> None:
     """Twice by the command, once by `gp.report`."""
     for name in ("one.pdf", "two.pdf"):
         reported(tmp_path / name, "four-bar", "--positions", "12", "--set", "sheet.plan=polar")
-    gp.report(gp.load("four-bar"), tmp_path / "three.pdf", n=12, plan="polar")
+    gp.report(gp.load("four-bar").replace("sheet.plan", "polar"), tmp_path / "three.pdf", n=12)
     assert len({(tmp_path / f"{name}.pdf").read_bytes() for name in ("one", "two", "three")}) == 1
 
 

@@ -285,11 +285,11 @@ def test_every_page_of_a_task_bears_marks_of_its_own() -> None:
 
 
 def test_a_teacher_has_a_word_on_the_task() -> None:
-    """`[sheet] task` stands at the head of the task; a length is given once."""
+    """`[sheet] task` stands at the head of the task; a length stands once in words, and once in the figure."""
     wish = "Find the velocity of M, then check the rocker."
     words = " ".join(one.text for page in handed_out("four-bar", ("sheet.task", wish))[0] for one in page.lettering)
     assert wish in words
-    assert words.count("162.63") == 1
+    assert words.count("162.63") == 2
 
 
 @pytest.mark.parametrize("name", names("tasks"))

@@ -8,7 +8,7 @@ import pytest
 from face import ran
 from live_browser import browser
 
-PAGES = ("index", "scenes", "tutorial", "reference", "four-bar", "manual/api")
+PAGES = ("index", "scenes", "tutorial", "reference", "four-bar", "manual/python")
 FAULTS = """() => {
   const faults = [], luminance = (colour) => {
     const parts = colour.match(/[\\d.]+/g).slice(0, 3).map((part) => part / 255)

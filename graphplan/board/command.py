@@ -67,7 +67,7 @@ def run(options: argparse.Namespace) -> int:
             uvicorn.Server(config).run(sockets=[bound])
         finally:
             board.stop()
-    return 0
+    raise KeyboardInterrupt  # a server ends by a signal alone, and may keep it to itself
 
 
 def _start(scene: str) -> tuple[str, str]:

@@ -107,8 +107,8 @@ def add_choices(command: argparse.ArgumentParser, *, method: bool = True, strict
             f"velocities and for accelerations), or centres of curvature ({', '.join(OF_PATHS)}); by default the "
             "best for the pose")
     add("--plan", default="", metavar="PLAN", help="plan of motion: orthogonal, polar (velocity and acceleration "
-        "polygons) or triangles (of gears), by default by the lengths of the links; of forces: lever, polygons or both "
-        "(default; polygons where no motion is asked for); such as polar,lever")
+        "polygons) or triangles (of gears), by default by the links' lengths; of forces: lever, polygons or both "
+        "(default); such as polar,lever")
     add_settings(command)
     if inertia:
         add("--inertia", default="", choices=INERTIA, metavar="FORM",
@@ -120,8 +120,8 @@ def add_choices(command: argparse.ArgumentParser, *, method: bool = True, strict
 def add_settings(command: argparse.ArgumentParser) -> None:
     """The option that changes values of the scene, by their paths."""
     command.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", dest="settings",
-                         help="change a value of the scene, such as points.A.angle=40, sheet.frame=gost or "
-                         "sheet.curves=all; entries of lists count from 0, and * is each")
+                         help="change a value of the scene, such as points.A.angle=40 or sheet.curves=all; entries of "
+                         "lists count from 0, * is each")
 
 
 def add_travel(command: argparse.ArgumentParser) -> None:

@@ -33,13 +33,15 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.check.answerable import report_regular_part
     from graphplan.check.json_results import reasons
     from graphplan.check.trusted import replacements, shortcuts
+    from graphplan.mechanism.planets import planet_remarks
     from graphplan.mechanism.structure import structure
     from graphplan.methods.panels import redundancies
 
     scene = load_scene(options)
     report = report_regular_part(scene, lambda scene: make_report(scene, exact=options.exact, refuse=False))
     groups = structure(scene).lines()
-    notes = [str(note) for note in (*redundancies(scene), *shortcuts(report.drawing), *replacements(scene))]
+    notes = [str(note) for note in (*redundancies(scene), *planet_remarks(scene), *shortcuts(report.drawing),
+                                    *replacements(scene))]
     notes += [f"{key} {name}: {why}" for key, named in reasons(report).items() for name, why in named.items()]
     if options.json:
         write(as_json(_data(report, groups, notes)))

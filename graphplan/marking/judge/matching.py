@@ -47,7 +47,7 @@ class Match:
     def sharp_weight(self) -> float:
         """Weight reduced for a mark that might as well be elsewhere: if nearly every place fits, the mark is no
         evidence."""
-        vague = self.residual.vague(measures.BESIDE_MM) if self.residual and self.state != WRONG else 0.0
+        vague = self.residual.vague(measures.SHARP_MM) if self.residual and self.state != WRONG else 0.0
         return max(self.weight - vague, min(self.weight, 0.0))
 
 
@@ -145,7 +145,7 @@ class Matching:
         """The dot, or else the end of a stroke, where the frame of a plan has its beginning: it is free, so that no
         slip of the hand makes it wrong."""
         places, off = self.evidence.nearby_traces(POINT, self.sheet.plan_of_step[step.index], plain_value(expected))
-        within = measures.AGREED_SIGMAS * self.sheet.pencil.point
+        within = measures.ORIGIN_SIGMAS * self.sheet.pencil.point
         if off.min(initial=math.inf) < within:
             return int(places[off.argmin()])
         trace = self.evidence.search(step, expected, self._known_marks(drawn), within)
@@ -192,7 +192,7 @@ class Matching:
         places, off = self.evidence.nearby_traces(step.op.gives, self.sheet.plan_of_step[step.index],
                                                   plain_value(expected))
         best: tuple[bool, float, int] | None = None
-        for k in np.argsort(off)[:measures.CANDIDATES] if len(places) else ():
+        for k in np.argsort(off)[:measures.TRACES_TRIED] if len(places) else ():
             if not off[k] < measures.MAX_ASTRAY_MM:
                 break
             residual = self.residual(step, expected, places[k], drawn)

@@ -156,10 +156,10 @@ class Search:
         assert match.place is not None
         for place in matching.evidence.neighbours(match.place, home, plain_value(matching.own[step.index])):
             if matching.residual(step, match.expected, place, matching.own).fits(matching.chance):
-                yield Guess(step.index, place, self._first_mistake_odds - measures.FIRST_MISTAKE_ODDS,
+                yield Guess(step.index, place, self._first_mistake_odds - measures.NEIGHBOUR_ODDS,
                             measures.NEIGHBOUR_PROMISE)
         if step.op.gives == POINT:
-            yield Guess(step.index, UNMARKED, self._first_mistake_odds - measures.FIRST_MISTAKE_ODDS,
+            yield Guess(step.index, UNMARKED, self._first_mistake_odds - measures.NEIGHBOUR_ODDS,
                         measures.NEIGHBOUR_PROMISE)
 
     def _mistake_guesses(self, matching: Matching, quick: QuickScore, match: Match) -> Iterator[Guess]:
@@ -172,7 +172,7 @@ class Search:
         for mistake in table:
             prior = measures.MISTAKE_ODDS - math.log(len(alike)) - math.log(alike[mistake.kind])
             promise = quick.gain_of(mistake) + prior
-            if promise > measures.HOPELESS_ODDS:
+            if promise > measures.MIN_PROMISE_ODDS:
                 yield Guess(step.index, mistake, prior, promise)
         faint = match.place is None or matching.evidence.weight(match.place) < measures.CLEAR_ODDS
         is_dot = step.op.gives == POINT and matching.evidence.picture
@@ -196,11 +196,11 @@ def has_own_ink(matching: Matching, match: Match) -> bool:
     if match.place is None or match.step.op.gives == POINT or not matching.evidence.picture:
         return True
     stroke, traces = matching.traces[match.place], matching.traces
-    reach = stroke.figure.buffer(measures.BESIDE_MM)
+    reach = stroke.figure.buffer(measures.STROKE_NEAR_MM)
     if stroke.kind == LINE:
         start, end = (np.array(spot) for spot in stroke.spots[:2])
-        beyond = measures.DRIFT_MM * (end - start) / math.dist(start, end)
-        reach = LineString([start - beyond, end + beyond]).buffer(measures.BESIDE_MM)
+        beyond = measures.LINE_END_MM * (end - start) / math.dist(start, end)
+        reach = LineString([start - beyond, end + beyond]).buffer(measures.STROKE_NEAR_MM)
     right = [traces[twin.place] for twin in matching.matches if twin.place is not None and twin.state == RIGHT]
     spots = [trace.figure for trace in right if trace.kind == POINT]
     for given in matching.matches:
@@ -230,7 +230,7 @@ def unmatched_traces(matching: Matching, step: Step) -> Iterator[tuple[int, tupl
         else:
             off = min((float(distance_apart(LINE, value, np.array([complex(*point[:2])]))) for point in on),
                       default=math.inf)
-            near = off * mm < measures.SURE_SIGMAS * max(sheet.pencil.point, sheet.pencil.edge)
+            near = off * mm < measures.CLAIM_SIGMAS * max(sheet.pencil.point, sheet.pencil.edge)
         if near:
             yield place, value
 
@@ -381,7 +381,7 @@ class RightWay:
         """By how much a stroke is turned from it, in right angles, 0 to 3; None where by none of them."""
         ratio = way / self.vector
         quarters = round(cmath.phase(ratio) / (math.pi / 2))
-        allowed = measures.SAME_FRAME_SHARE + 3 * math.hypot(self.sigma, math.sqrt(2) * mark_error / abs(way))
+        allowed = measures.SAME_DIRECTION_SINE + 3 * math.hypot(self.sigma, math.sqrt(2) * mark_error / abs(way))
         return quarters % 4 if abs(cmath.phase(ratio * 1j**-quarters)) < allowed else None
 
 
@@ -418,7 +418,7 @@ def _right_ways(matching: Matching, match: Match) -> Iterator[RightWay]:
     for basis in (matching.own, matching.mended):
         unit = sheet.frame(step).unit
         vector, sigma = sheet.laid_off(step, step.root, basis) or (0j, 0.0)
-        if abs(vector * unit) > measures.MIN_VECTOR_MM and abs(vector) > measures.SURE_SIGMAS * sigma:
+        if abs(vector * unit) > measures.MIN_VECTOR_MM and abs(vector) > measures.SURE_VECTOR_SIGMAS * sigma:
             yield RightWay(vector * unit, sigma / abs(vector))
 
 
@@ -446,12 +446,12 @@ def _stroke_ends(submission: Submission, start: complex) -> Iterator[complex]:
     for trace in submission.traces:
         if trace.kind == LINE:
             yield from (end for begin, end in permutations(complex(*spot) for spot in trace.spots[:2])
-                        if abs(begin - start) < measures.SAME_STROKE_MM < abs(end - start))
+                        if abs(begin - start) < measures.ARROW_TAIL_MM < abs(end - start))
 
 
 def _is_no_mark(matching: Matching, tip: complex) -> bool:
     """Whether an arrow ends in no mark that was found."""
-    return all(abs(tip - _spot(matching, match.step)) > measures.SAME_STROKE_MM for match in matching.matches
+    return all(abs(tip - _spot(matching, match.step)) > measures.TWIN_MM for match in matching.matches
                if match.place is not None and match.step.op.gives == POINT)
 
 

@@ -263,7 +263,6 @@ LEGEND = ("S, E: Lemoine's simplicity and exactitude. Instrument changes: how of
           "their plans. Relative error: relative to the largest value of its kind.")
 
 
-
 def align_columns(rows: Sequence[Sequence[str]]) -> list[str]:
     """Rows as lines, their columns as wide as they need be: the first to the left, the others to the right."""
     wide = [max(map(len, column)) for column in zip(*rows, strict=True)]

@@ -31,6 +31,7 @@ from graphplan.app.cycle_plot import Member, add_plot, check_plot, plot_file, pl
 from graphplan.app.drafting import translate_title
 from graphplan.app.files import STANDARD, kind, refuse_same_output, refuse_without_room, write
 from graphplan.errors import Refused
+from graphplan.mechanism.sections import NO_WORDS
 from graphplan.mechanism.written_scene import MAX_TRAVEL
 from graphplan.methods.design import Design
 
@@ -308,7 +309,7 @@ def animation(options: argparse.Namespace, span: tuple[float, float] | None = No
     from graphplan.cycle.turn import loop
     from graphplan.output.animation import gif, svg
 
-    on_sheet, messages = on_paper(options, protocol="none"), Messages(options.quiet)  # there is no time to read it
+    on_sheet, messages = on_paper(options, protocol=NO_WORDS), Messages(options.quiet)  # there is no time to read it
     motion = loop(on_sheet.drawing.scene, options.positions or DEFAULT_POSES, span)
     film = _film(on_sheet.drawing, on_sheet.composition, motion, messages)
     write_out = svg if kind(options.animate, ANIMATION_ENDINGS, "animation") == ".svg" else gif

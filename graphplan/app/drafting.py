@@ -1,4 +1,4 @@
-"""How a scene is drawn and what its sheet looks like: options and keywords are keys of its [sheet].
+"""The choices of a drawing and its sheet: options and keywords are keys of [sheet].
 
 From a scene to its checked construction, and to its sheet, as its keys have it.
 """

@@ -100,7 +100,7 @@ class FoundMechanism(Protocol):
     """A mechanism found for a task, which can stand instead of a scene: in handouts, on live pages, in classes."""
 
     def with_sheet(self, keys: Mapping[str, Any]) -> Self:
-        """What was found, on sheets with other keys of [sheet]."""
+        """Return the mechanism with other keys of [sheet]."""
 
     def on_paper(self) -> Drafted:
         """The construction on its sheet."""

@@ -63,7 +63,6 @@ def plain(form: str) -> str:
     return form.form if isinstance(form, Variant) else form
 
 
-
 class Movement(Enum):
     """A movement of the hand: primitives of one movement with the same operands draw the same."""
 

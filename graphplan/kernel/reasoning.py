@@ -55,7 +55,7 @@ class _Telling:
                 self._retell(min(moves, key=lambda move: (len(ends & move.keys()), len(move))))
 
     def _draw_whole_stages(self) -> bool:
-        """Draw the stages that read nothing but themselves and what is drawn; return whether there is any."""
+        """Draw the stages that read only themselves and what is drawn; return whether there are any."""
         whole = [stage for stage, steps in self.unfinished.items() if not self._missing(steps)]
         for stage in whole:
             self.finished |= self.unfinished.pop(stage)
@@ -80,7 +80,7 @@ class _Telling:
         return [stage for stage in self.unfinished if all(stage in behind[other] for other in behind[stage])]
 
     def _ways_to_make_whole(self, stage: Stage | None) -> Iterator[dict[int, Stage | None]]:
-        """Yield ways to leave a stage nothing to wait for, as the steps that are told otherwise and their new stage."""
+        """Yield ways to make a stage whole: for each step that moves to another stage, that stage."""
         steps, waits = self.unfinished[stage], set[int]()
         yield dict.fromkeys(steps_behind(self.program.steps, steps, self.finished) - steps, stage)
         ready = steps | self.finished
@@ -118,7 +118,7 @@ def _recorded_stages(program: Program) -> list[Stage | None]:
 
 
 def _first_ends(program: Program, stage_of: Sequence[Stage | None]) -> set[int]:
-    """Return the last step of each stage of those that were recorded when it was recorded first."""
+    """Return the last step of each stage as it was recorded first; what is recorded of it later follows others."""
     tellers, ends = dict[Stage | None, Teller](), dict[Stage | None, int]()
     for step, stage in zip(program.steps, stage_of, strict=True):
         if step.stage and step.stage is tellers.setdefault(stage, step.stage):
@@ -210,7 +210,7 @@ class _StageToDraw:
 
 def _stages_to_draw(program: Program, stage_of: Sequence[Stage | None]) -> list[_StageToDraw]:
     """The stages in the order in which they were recorded; what was recorded of one at several times is together."""
-    steps_of, stages, bearer = dict[Stage | None, list[Step]](), list[_StageToDraw](), dict[int, _StageToDraw]()
+    steps_of, stages, owner = dict[Stage | None, list[Step]](), list[_StageToDraw](), dict[int, _StageToDraw]()
     for step in program.steps[program.givens:]:
         steps_of.setdefault(stage_of[step.index], []).append(step)
     for stage, steps in steps_of.items():
@@ -218,8 +218,8 @@ def _stages_to_draw(program: Program, stage_of: Sequence[Stage | None]) -> list[
         places, part = {step.index for step in steps}, home_plan(program, steps)
         reads = {arg for step in steps for arg in step.args if arg >= program.givens} - places
         stages.append(_StageToDraw(part.whole, part, law, title, places, reads))
-        bearer.update(dict.fromkeys(places, stages[-1]))
+        owner.update(dict.fromkeys(places, stages[-1]))
     for reader in stages:
-        for earlier in {id(bearer[arg]): bearer[arg] for arg in reader.reads}.values():
+        for earlier in {id(owner[arg]): owner[arg] for arg in reader.reads}.values():
             earlier.readers.append(reader)
     return stages

@@ -34,7 +34,8 @@ def planet_remarks(scene: Scene) -> Iterator[Said]:
 def _teeth_of_set(outer: Gear, ring: Gear) -> tuple[Fraction, Fraction, Fraction] | None:
     """Return the teeth of sun, planet and ring, where the planet of a ring meshes with a sun about the ring's centre.
     """
-    if not (outer.teeth and ring.teeth) or outer.internal or not ring.internal or ring.wheels[0] not in outer.wheels:
+    if not (outer.teeth and ring.teeth and ring.internal) or outer.internal or outer.belt or (
+            ring.wheels[0] not in outer.wheels):
         return None
     place = outer.wheels.index(ring.wheels[0])
     is_set = (outer.centres[place], outer.centres[1 - place]) == ring.centres and outer.teeth[place] == ring.teeth[0]

@@ -70,7 +70,7 @@ def facts(results: Mapping[str, Mapping[str, Any]],
 
 
 def _prefix(kind: str, of: str, results: Mapping[str, Mapping[str, Any]]) -> str:
-    """How a balance is found; else the words for a result that stands there in another way as well."""
+    """The words that tell columns of one name apart: the way of a balance, a screw, or a result without friction."""
     if kind == kinds.SCREW:
         return "screw"
     return "without friction" if of in results.get(kinds.WITH_FRICTION.get(kind, ""), {}) else kind_of(kind).way

@@ -24,7 +24,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import WORDS, kind_of
 from graphplan.methods.panels import MECHANISM
 from graphplan.methods.results import forces, pair_forces
-from graphplan.output.tables import FULL_TURN, TableColumn, printed_travel, quantity_table
+from graphplan.output.tables import FULL_TURN, Largest, TableColumn, printed_travel, quantity_table
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.diagrams import CURVES, FOOT, LEFT, ON, Diagram, DrawnCurve, Frame, QuantityAxis, stroke_curve
 from graphplan.sheet.layout.scales import ratio, scale_words
@@ -97,8 +97,8 @@ class CycleReport:
 
     @cached_property
     def quantities(self) -> list[CycleQuantity]:
-        """What the scene asks for, in the order of the sheet, without what is zero in all poses but for rounding; of a
-        machine with friction the efficiency."""
+        """The quantities that the scene asks for, in the order of the sheet, without those that are zero to rounding in
+        all poses; of a machine with friction the efficiency, too."""
         quantities, sizes = [*self._motion_and_forces()], dict[str, float]()
         for _, _, unit_text, values in quantities:
             sizes[unit_text] = max(sizes.get(unit_text, 0.0), float(np.nanmax(np.abs(values), initial=0.0)))
@@ -257,8 +257,8 @@ class CycleReport:
     def _largest_marks(self, frame: Frame, group: Sequence[CycleQuantity]) -> Iterator[Item]:
         """A dot at the largest value of each curve."""
         for quantity, pen in zip(group, PENS, strict=False):
-            if quantity.unit and (place := _place_of_largest(quantity.values)) is not None:
-                spot = frame.spot(float(self.travel[1][place]), float(quantity.values[place]))
+            if quantity.unit and (largest := Largest.over(quantity.values, self.travel[1])):
+                spot = frame.spot(largest.travel, largest.value)
                 if frame.rect.holds(spot):
                     yield Circle(pen.with_fill(pen.colour), "links", None, spot, DOT_MM)
 
@@ -299,16 +299,13 @@ class CycleReport:
                    join([join((WORDS[kind], digits(gap, 2)), " ") for kind, gap in self.cycle.check.items()]))
 
     def _extremes(self, quantities: Iterable[CycleQuantity]) -> Sequence[Sequence[Said | str]]:
-        """The largest of each quantity with its place, and the root mean square, as a table; of an efficiency these
-        say nothing."""
+        """The largest of each quantity but an efficiency, with its place, and the root mean square, as a table."""
         measure, travel = self.travel
         rows: list[list[Said | str]] = [["", said("largest"), join((said("drive"), unit(measure))), said("rms")]]
         for quantity in quantities:
-            if quantity.unit and (place := _place_of_largest(quantity.values)) is not None:
+            if quantity.unit and (largest := Largest.over(quantity.values, travel)):
                 name = join((quantity.symbol, unit(quantity.unit)))
-                mean = float(np.sqrt(np.nanmean(np.square(quantity.values))))
-                rows.append([name, digits(float(quantity.values[place])), digits(float(travel[place])),
-                             digits(mean)])
+                rows.append([name, *map(digits, (largest.value, largest.travel, largest.rms))])
         return rows
 
 
@@ -324,12 +321,6 @@ def _numbers(spots: Iterable[Spot], rect: Rect) -> list[Wish]:
         if rect.holds(spot) and all(math.dist(spot, wish.spots[0]) > MIN_NUMBER_GAP_MM for wish in wishes):
             wishes.append(Wish(sentence_runs(str(number)), (spot,), 0.8, True, pens.FAINT))
     return wishes
-
-
-def _place_of_largest(values: Any) -> int | None:
-    """The first place of the largest size, but for rounding; None where no value is known."""
-    sizes = np.abs(values)
-    return int(np.argmax(sizes >= (1 - ZERO_TOL) * np.nanmax(sizes))) if np.isfinite(values).any() else None
 
 
 def _span(curves: Sequence[Any], measure: str) -> tuple[float, float]:

@@ -22,6 +22,7 @@ from graphplan.mechanism.units import FORCE, LENGTH, MOMENT
 from graphplan.methods import kinds
 from graphplan.methods.results import axes, balances, facts, forces, pair_forces
 from graphplan.phrases import Said, arrange, digits, join, said, unit
+from graphplan.sheet.tolerances import ZERO_TOL
 
 ROWS = 4096  # written in one call
 
@@ -184,8 +185,8 @@ def direction(z: Any) -> Any:
 
 @dataclass(frozen=True)
 class Largest:
-    """The largest of a force (complex) or a balancing moment over the poses that are known, the pose by its place and
-    its travel, and the root mean square of all, of which `squares` is the sum over `count` poses."""
+    """The largest value of a quantity over the poses in which it is known, of a vector (complex) by its size; the pose
+    by its place and its travel; and the root mean square of all, of which `squares` is the sum over `count` poses."""
 
     value: Any
     pose: int
@@ -193,12 +194,24 @@ class Largest:
     squares: float
     count: int
 
+    @classmethod
+    def over(cls, values: Any, travels: Any, earlier: int = 0) -> Largest | None:
+        """Return it of poses after so many earlier ones, of values that differ by rounding the first; None where no
+        value is known."""
+        sizes = np.abs(values)
+        if not np.isfinite(sizes).any():
+            return None
+        k = int(np.argmax(sizes >= (1 - ZERO_TOL) * np.nanmax(sizes)))
+        return cls(values[k].item(), earlier + k, float(travels[k]), float(np.nansum(sizes**2)),
+                   int(np.isfinite(sizes).sum()))
+
     @property
     def rms(self) -> float:
+        """The root mean square."""
         return math.sqrt(self.squares / self.count)
 
     def merge(self, other: Largest) -> Largest:
-        """The same of these poses and of others after them."""
+        """Return the largest value of these poses and of others after them."""
         larger = max(self, other, key=lambda one: abs(one.value))
         return replace(larger, squares=self.squares + other.squares, count=self.count + other.count)
 
@@ -220,11 +233,7 @@ class LargestLoads:
         """Take in the next block."""
         travels = printed_travel(self.scene, travel)[1]
         for name, values in {**forces(self.scene, results), **balancing_moments(self.scene, results)}.items():
-            sizes = np.abs(values)
-            if np.isfinite(sizes).any():
-                k = int(np.nanargmax(sizes))
-                largest = Largest(values[k].item(), self.poses + k, float(travels[k]), float(np.nansum(sizes**2)),
-                                  int(np.isfinite(sizes).sum()))
+            if largest := Largest.over(values, travels, self.poses):
                 self.by_name[name] = self.by_name[name].merge(largest) if name in self.by_name else largest
         self.poses += len(travels)
 

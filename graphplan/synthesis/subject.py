@@ -40,7 +40,7 @@ class SynthesisResults(Subject):
         return self.drawn.synthesis
 
     def with_sheet(self, keys: Mapping[str, Any]) -> SynthesisResults:
-        """What was found, on sheets with other keys of [sheet]."""
+        """Return the mechanism with other keys of [sheet]."""
         task = with_sheet(self.synthesis.task, keys)
         return replace(self, drawn=replace(self.drawn, synthesis=replace(self.synthesis, task=task)))
 

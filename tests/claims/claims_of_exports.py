@@ -344,8 +344,6 @@ def dxf_has_the_sheet_with_a_layer_for_each_step(got: Got) -> None:
 # ---- PDF and PNG -----------------------------------------------------------------------------------------------------
 
 
-
-
 @claim()
 def pdf_and_png_are_the_sheet_as_a_browser_shows_its_svg(got: Got) -> None:
     """The page has the sheet's size, title and words, and the ink of all three is within half a millimetre."""

@@ -295,7 +295,6 @@ def draw_six_bar_polar(task: Task, board: Board, where: Places) -> None:
     dyad_acceleration(board, where, P, "EDF", ("n_4", "n_5"), (abs(e - d), abs(e - p)), (d1, pi), sides)
 
 
-
 def orthogonal_velocity(board: Board, letter: str, P: Points, where: Places, omega: float) -> complex:
     """The end of the orthogonal velocity of A."""
     return board.put("mechanism", letter, P["A"] - where.kv * omega * (P["A"] - P["O"]) / where.k, stroke_from=P["A"])

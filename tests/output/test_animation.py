@@ -52,8 +52,6 @@ def circles(picture: Element, time: float) -> Any:
     return np.array([float(at(one, "cx", time)) - 1j * float(at(one, "cy", time)) for one in shown])
 
 
-
-
 def test_joints_are_where_the_linkage_is_followed_to() -> None:
     """The circles of pairs, read back from the file, move as the points do, but for the scale and a shift."""
     picture, scene = fromstring(animated("four-bar", ".svg")), gp.load("four-bar")

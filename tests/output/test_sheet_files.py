@@ -177,5 +177,3 @@ assert not {'svgwrite', 'matplotlib', 'shapely', 'fontTools', 'ezdxf'} & {*sys.m
 assert drawing._repr_svg_().startswith('<?xml')
 """
     subprocess.run([sys.executable, "-c", code], env={"PYTHONPATH": ":".join(sys.path)}, check=True)
-
-

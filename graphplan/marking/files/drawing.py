@@ -29,8 +29,6 @@ from graphplan.sheet.plates.display import ENLARGED
 # ---- lines and circles by their spots -------------------------------------------------------------------------------
 
 
-
-
 def circle_spots(centre: Spot, radius: float) -> tuple[Spot, ...]:
     """Four spots of a circle's rim."""
     (x, y), r = centre, radius
@@ -191,8 +189,6 @@ def _chord_deviation(spots: Sequence[Spot]) -> float:
 
 
 # ---- drawings -------------------------------------------------------------------------------------------------------
-
-
 
 
 def word_at(text: str, at: Spot, size: float, anchor: float = 0.0) -> Lettering:

@@ -69,7 +69,7 @@ class Relabelling:
         return [*faulty, *(letter for letter in far if letter not in faulty)]
 
     def relabel(self, makes_room: bool = True) -> None:
-        """Move misplaced_letters letters, with or without others making room, until no letter finds a better place."""
+        """Move misplaced letters, with or without others making room, until no letter finds a better place."""
         self.left *= makes_room
         for _ in range(MAX_RELABELLINGS if len(self.prices.found.boxes) < MAX_PLACES else 0):
             if not sum([self._try(letter) for letter in self.misplaced_letters]):

@@ -385,7 +385,7 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[SaidFact]:
     for letter, load in laws.items():
         if load.table and not load.table.span:
             measure = f"{units.force}·m" if letter in moments else units.force
-            yield SaidFact(LOADS, letter, _law(load.table), unit(measure))
+            yield SaidFact(LOADS, letter, _law(load.table), unit(measure if _ends_in_a_value(load.table) else ""))
     belts = [gear.grip for gear in scene.gears if gear.grip]
     for friction in (*scene.loads.frictions, *(grip.friction for grip in belts)):
         place = friction.slide or friction.links or friction.at
@@ -424,6 +424,11 @@ def reduced_coefficient(wedge: Wedge, friction: Friction) -> Said:
     return arrange("mu / sin {0}° = {1}", given_number(wedge.degrees / 2), given_number(friction.coefficient))
 
 
+def _ends_in_a_value(table: LoadTable) -> bool:
+    """Whether the law of a load ends in a value, after which the unit stands: in the last of a few rows."""
+    return not table.powers and len((table.written or (table.over, table.rows))[1]) <= MAX_TABLE_ROWS
+
+
 def _law(table: LoadTable) -> Said:
     """A load by its place or speed: its powers, its rows, or how many these are."""
     if table.powers:
@@ -432,14 +437,13 @@ def _law(table: LoadTable) -> Said:
                  for k, (c, power) in enumerate(powers)]
         return arrange("{0} (v: {1})", join(terms or [given_number(0)], ""), table.over)
     over, given_rows = table.written or (table.over, table.rows)
-    law = said("a load over {0}, in {1} rows", over, len(given_rows))
-    rows = join([arrange("({0}; {1})", *map(given_number, row)) for row in given_rows])
-    law = arrange("{0}: {1}", law, rows) if len(given_rows) <= MAX_TABLE_ROWS else law
     limits = [said("zero beyond them")] if table.beyond == ZERO else []
     if table.during in (FORWARD, RETURN):
         limits.append(said("on the forward stroke alone") if table.during == FORWARD else
                       said("on the return stroke alone"))
-    return join((law, *limits), "; ")
+    law = join((said("a load over {0}, in {1} rows", over, len(given_rows)), *limits))
+    rows = join([arrange("({0}; {1})", *map(given_number, row)) for row in given_rows])
+    return arrange("{0}: {1}", law, rows) if _ends_in_a_value(table) else law
 
 
 def _apart(scene: Scene, names: Sequence[str]) -> list[str]:

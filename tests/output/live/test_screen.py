@@ -163,4 +163,3 @@ def test_paths_hodographs_and_the_graph_have_one_cursor() -> None:
             places.append((page.evaluate("graphplan.travel"), page.evaluate(cursor)))
         assert all(one != two for one, two in pairwise(places))
         assert places[0][0] != 130
-

@@ -385,7 +385,7 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[SaidFact]:
     for letter, load in laws.items():
         if load.table and not load.table.span:
             measure = f"{units.force}·m" if letter in moments else units.force
-            yield SaidFact(LOADS, letter, _law(load.table), unit(measure if _ends_in_a_value(load.table) else ""))
+            yield SaidFact(LOADS, letter, _law(load.table, unit(measure)), unit(""))
     belts = [gear.grip for gear in scene.gears if gear.grip]
     for friction in (*scene.loads.frictions, *(grip.friction for grip in belts)):
         place = friction.slide or friction.links or friction.at
@@ -424,18 +424,13 @@ def reduced_coefficient(wedge: Wedge, friction: Friction) -> Said:
     return arrange("mu / sin {0}° = {1}", given_number(wedge.degrees / 2), given_number(friction.coefficient))
 
 
-def _ends_in_a_value(table: LoadTable) -> bool:
-    """Whether the law of a load ends in a value, after which the unit stands: in the last of a few rows."""
-    return not table.powers and len((table.written or (table.over, table.rows))[1]) <= MAX_TABLE_ROWS
-
-
-def _law(table: LoadTable) -> Said:
-    """A load by its place or speed: its powers, its rows, or how many these are."""
+def _law(table: LoadTable, measure: Said) -> Said:
+    """A load by its place or speed, with its unit: its powers, its rows, or how many these are."""
     if table.powers:
         powers = [(c, power) for c, power in zip(table.powers, ("", " v", " v |v|"), strict=False) if c]
         terms = [arrange("{0}{1}{2}", (" + " if k else "", " − " if k else "−")[c < 0], given_number(abs(c)), power)
                  for k, (c, power) in enumerate(powers)]
-        return arrange("{0} (v: {1})", join(terms or [given_number(0)], ""), table.over)
+        return arrange("{0} {1} (v: {2})", join(terms or [given_number(0)], ""), measure, table.over)
     over, given_rows = table.written or (table.over, table.rows)
     limits = [said("zero beyond them")] if table.beyond == ZERO else []
     if table.during in (FORWARD, RETURN):
@@ -443,7 +438,7 @@ def _law(table: LoadTable) -> Said:
                       said("on the return stroke alone"))
     law = join((said("a load over {0}, in {1} rows", over, len(given_rows)), *limits))
     rows = join([arrange("({0}; {1})", *map(given_number, row)) for row in given_rows])
-    return arrange("{0}: {1}", law, rows) if _ends_in_a_value(table) else law
+    return arrange("{0}: {1} {2}", law, rows, measure) if len(given_rows) <= MAX_TABLE_ROWS else join((law, measure))
 
 
 def _apart(scene: Scene, names: Sequence[str]) -> list[str]:

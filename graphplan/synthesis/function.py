@@ -19,7 +19,7 @@ from graphplan.kernel.program import Mark
 from graphplan.mechanism.numbers import number_text
 from graphplan.phrases import said
 from graphplan.synthesis import guidance
-from graphplan.synthesis.linkage import FoundLinkage, sort_linkages
+from graphplan.synthesis.linkage import FoundLinkage, best_first
 from graphplan.synthesis.sketch import (
     FIRST_THREE,
     Synthesis,
@@ -37,12 +37,10 @@ from graphplan.synthesis.tolerances import COLLINEAR_TOL, SAME_POINT_TOL
 def synthesize_function(task: SynthesisTask) -> Synthesis:
     """The linkages of a function task, best first: of up to four pairs one, of five up to three."""
     sketches = [RockerSketch(task, w) for w in crank_pins(task)] if task.request.rocker else [SlideSketch(task)]
-    pairs = [(sketch, sketch.linkage()) for sketch in sketches]
-    values = {id(require_lengths(linkage, f"{task.name}: function", sketch.size, "other angles")): sketch.values
-              for sketch, linkage in pairs}
-    linkages = sort_linkages([linkage for _, linkage in pairs])
+    linkages, values = best_first((require_lengths(sketch.linkage(), f"{task.name}: function", sketch.size,
+                                                   "other angles"), sketch.values) for sketch in sketches)
     results = {"structural_error": structural_error(task, linkages[0])} if task.request.compare else {}
-    return Synthesis(task, tuple(values[id(linkage)] for linkage in linkages), tuple(linkages), results)
+    return Synthesis(task, values, linkages, results)
 
 
 def crank_pins(task: SynthesisTask) -> list[complex]:

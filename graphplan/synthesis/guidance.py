@@ -25,7 +25,7 @@ from graphplan.errors import NoMechanism
 from graphplan.kernel.program import Mark
 from graphplan.phrases import digits, said
 from graphplan.synthesis.driver import DrivingCrank
-from graphplan.synthesis.linkage import FoundLinkage, sort_linkages
+from graphplan.synthesis.linkage import FoundLinkage, best_first
 from graphplan.synthesis.requests import CirclePointChoice
 from graphplan.synthesis.sketch import (
     FIRST_THREE,
@@ -237,9 +237,8 @@ def synthesize_guidance(task: SynthesisTask) -> Synthesis:
             start.drive()
     if not pairs:
         return Synthesis(task, (sketches[0].values,), (), results)
-    linkages = {id(start.linkage): start.values for start in sketches}
-    ordered = sort_linkages([start.linkage for start in sketches])
-    return Synthesis(task, tuple(linkages[id(start)] for start in ordered), tuple(ordered), results)
+    linkages, values = best_first((start.linkage, start.values) for start in sketches)
+    return Synthesis(task, values, linkages, results)
 
 
 def distinct_points(points: Sequence[complex]) -> list[complex]:

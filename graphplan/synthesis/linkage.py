@@ -9,14 +9,15 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
-from typing import Any
+from typing import Any, TypeVar
 
 from graphplan.synthesis.tolerances import CHANGE_TOL, SENSE_TOL
 
+Drawn = TypeVar("Drawn")
 BRANCH, CIRCUIT, ORDER = "branch", "circuit", "order"
 TYPES = {"O A": "crank-rocker", "O C": "double-crank", "B C": "rocker-crank", "A B": "double-rocker"}  # by the shortest
 CHANGE_POINT, TRIPLE_ROCKER, SLIDER_CRANK = "change point", "triple-rocker", "slider-crank"
@@ -210,6 +211,8 @@ def _rises(values: Sequence[float]) -> bool:
     return all(low < high for low, high in pairwise(values))
 
 
-def sort_linkages(linkages: Sequence[FoundLinkage]) -> list[FoundLinkage]:
-    """Linkages sorted: without defects first, each by falling least transmission angle."""
-    return sorted(linkages, key=lambda one: (bool(one.defects), -one.transmission[0]))
+def best_first(linkages: Iterable[tuple[FoundLinkage, Drawn]]) -> tuple[tuple[FoundLinkage, ...], tuple[Drawn, ...]]:
+    """Return the linkages, and what is drawn of each: those without defects first, by falling least transmission angle.
+    """
+    ordered = sorted(linkages, key=lambda pair: (bool(pair[0].defects), -pair[0].transmission[0]))
+    return tuple(linkage for linkage, _ in ordered), tuple(values for _, values in ordered)

@@ -28,7 +28,7 @@ LIMITS = {
     "imports, % of the lines of code": 10.6,
     "lines of the longest file": 800,
     "numeric constants": 1150,
-    "tokens": 953_000,
+    "tokens": 952_000,
 }
 
 

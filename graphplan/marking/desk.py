@@ -337,12 +337,12 @@ class Desk:
 
     def _judge(self, submission: Submission) -> Judgement:
         """Judge a drawing, and numbers over the cycle."""
-        from graphplan.marking.judge.judge import judge, judge_any_method
+        from graphplan.marking.judge.judge import judge, judge_any_design
         from graphplan.marking.judge.numbers import with_cycle_numbers
 
         work = self.on_sheet.drawing, self.on_sheet.composition, submission, self.on_sheet.pencil
         judgement_of_pose = (judge(*work) if self.keys.get("method")
-                             else judge_any_method(*work, self.keys.get("plan") or ""))
+                             else judge_any_design(*work, self.keys.get("plan") or ""))
         if submission.page:
             judgement_of_pose = without_doubtful_mistakes(judgement_of_pose)
         return with_cycle_numbers(judgement_of_pose, self._cycle.expected_result)

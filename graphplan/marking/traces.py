@@ -155,7 +155,8 @@ class Submission:
     A file of measured points shows no lines, so that none is missing there. A picture's faint lines are found where
     they are expected: its `page` is asked for them. `tips` are where heads of arrows end, filled or open ones.
     `letters` stand beside marks; which of them each names, the whole drawing tells.
-    `millimetres` is what speaks for lengths being in mm, as a logarithm of odds.
+    `millimetres` is what speaks for lengths being in mm, as a logarithm of odds: minus infinity where the unit is the
+    drawing's own.
     `measured` says that its marks were measured and written down, `stated` how precisely in the student's own words:
     else their blur is the least that it may be. `left_out` is what it has that is too small to be seen on paper.
     """

@@ -89,7 +89,7 @@ class Evidence:
         """Visible share of the ink that a step would make; None if it would not be visible."""
         _, off = self.nearby_traces(step.op.gives, self.sheet.plan_of_step[step.index], plain_value(value))
         is_shown = step.op.gives in self.shows and step.index not in self.sheet.hidden
-        return float(off.min(initial=math.inf) < measures.STROKE_NEAR_MM) if is_shown else None
+        return float(off.min(initial=math.inf) < measures.BESIDE_MM) if is_shown else None
 
     def is_beyond_panel(self, step: Step, value: Any) -> bool:
         """Whether a point would be off its panel, so that no step can use it."""
@@ -115,7 +115,7 @@ class Evidence:
         """The other traces that are so near to what one is that it could be they."""
         places, off = self.nearby_traces(self.traces[place].kind, panel, value)
         return [neighbour
-                for neighbour, far in zip(places, off, strict=True) if far < measures.SIDE_BY_SIDE_MM
+                for neighbour, far in zip(places, off, strict=True) if far < measures.BESIDE_MM
                 and neighbour != place]
 
     def nearby_traces(self, kind: str, panel: str, value: Sequence[float]) -> tuple[list[int], Any]:
@@ -165,7 +165,7 @@ class ImageSearch(Evidence):
             ends_at(stroke, complex(*trace.spots[0])) for stroke in strokes)}
 
     def find_trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
-        value, reach = plain_value(expected), min(within, measures.MAX_SEARCH_MM)
+        value, reach = plain_value(expected), min(within, measures.DRIFT_MM)
         spots = self._spots_to_search(step, self._spots(step, value, own))
         key = (step.index, *value, *(round(coordinate) for spot in spots for coordinate in spot))
         if key not in self._cache:
@@ -180,14 +180,14 @@ class ImageSearch(Evidence):
         """Off its panel at what is there all the same; None where print hides most, or where it is too small to see."""
         spots = self._spots(step, plain_value(value), own, measures.ARC_MM / 2)
         share = self.page.visible_share(step.op.gives, self._spots_to_search(step, spots),
-                                        measures.STROKE_NEAR_MM) if spots else None
+                                        measures.BESIDE_MM) if spots else None
         return share if not spots or self._spots_on_panel(step, spots) else share or 0.0
 
     def is_beyond_panel(self, step: Step, value: Any) -> bool:
         if step.op.gives != POINT:
             return False
         spot = self._sheet_spot(step, complex(*plain_value(value)[:2]))
-        return not (self._panel(step).holds(spot) or self.page.visible_share(POINT, [spot], measures.STROKE_NEAR_MM))
+        return not (self._panel(step).holds(spot) or self.page.visible_share(POINT, [spot], measures.BESIDE_MM))
 
     def _spots(self, step: Step, value: Value, own: KnownMarks, struck: float = measures.ARC_MM) -> list[Spot]:
         """Spots on the sheet of what a step makes, there where it would be drawn."""
@@ -268,7 +268,7 @@ class ImageSearch(Evidence):
 def unexplained_traces(traces: Sequence[Trace], explained: Sequence[Trace]) -> list[Trace]:
     """Of the traces of a picture those that are no part of the strokes and dots that steps explain: half of a stroke,
     or a dot, lies beside them."""
-    about = union_all([trace.figure.buffer(measures.END_NEAR_MM if trace.kind == POINT else measures.STROKE_NEAR_MM)
+    about = union_all([trace.figure.buffer(measures.END_NEAR_MM if trace.kind == POINT else measures.BESIDE_MM)
                        for trace in explained])
     return [trace for trace in traces if not (
         trace.figure.within(about) or trace.figure.intersection(about).length > trace.figure.length / 2)]
@@ -279,7 +279,7 @@ def ends_at(stroke: Sequence[complex], spot: complex) -> bool:
     start, end = stroke
     along = (spot - start) / ((end - start) or 1.0)
     aside, beyond = abs(along.imag * (end - start)), min(abs(along.real), abs(1.0 - along.real)) * abs(end - start)
-    return aside < measures.TWIN_MM and beyond < measures.OVERSHOOT_MM
+    return aside < measures.SAME_STROKE_MM and beyond < measures.OVERSHOOT_MM
 
 
 def _is_same_ink(one: Trace, other: Trace) -> bool:
@@ -288,4 +288,4 @@ def _is_same_ink(one: Trace, other: Trace) -> bool:
     if one.kind == POINT:
         return math.dist(one.spots[0], other.spots[0]) < measures.END_NEAR_MM
     whole = LineString(other.spots)
-    return bool(whole.intersection(LineString(one.spots).buffer(measures.TWIN_MM)).length > whole.length / 2)
+    return bool(whole.intersection(LineString(one.spots).buffer(measures.SAME_STROKE_MM)).length > whole.length / 2)

@@ -39,18 +39,18 @@ from graphplan.sheet.plates.plans import Plans
 # How a drawing is read: by which construction, on what sheet, how its marks are to be taken, and in which unit it was
 # drawn. Programs of geometry know no units, and what CAD files state is not always meant. The mechanism's points tell
 # how many units of the file one unit of the scene is; as what unit the scale of the paper is that of the task, or at
-# least a round one, that is meant. Where none is, the drawing is taken to be as large as the task's.
+# least a round one, that is meant. Where none is, a drawing that may be one in mm is, at a scale of its own; another is
+# taken to be as large as the task's.
 
 
 @dataclass(frozen=True)
 class SheetReading:
     """One way to read a drawing: the `submission` as its traces are taken, and the construction that it is judged by.
 
-    `remarks` say what differs from the task, `scaled` the plan whose k_v is told with that; `prior` is how unlikely it
-    is, in natural logarithms of odds, `departs` how many of the scale and the sense of velocities are others than the
-    task's. `task` is the task's sheet; `asked` are the steps whose marks a drawing is to
-    have, if not all; `exchanged` two traces, by their places, that had each other's letters, which are put right;
-    `numbered` are those whose numbers are left out: each point is to be a mark of the construction.
+    `remarks` say what differs from the task, `scaled` the plan whose k_v is told with that; `departs` is how many of
+    the scale and the sense of velocities are others than the task's. `task` is the task's sheet; `asked` are the steps
+    whose marks a drawing is to have, if not all; `numbered` are the traces, by their places, whose numbers are left
+    out: each point is to be a mark of the construction.
     """
 
     drawing: Construction
@@ -58,10 +58,8 @@ class SheetReading:
     submission: Submission
     remarks: tuple[Said, ...] = ()
     scaled: str = ""
-    prior: float = 0.0
     departs: int = 0
     asked: frozenset[int] | None = None
-    exchanged: tuple[int, ...] = ()
     numbered: frozenset[int] = frozenset()
 
     @cached_property
@@ -94,7 +92,7 @@ def to_mm(drawing: Construction, composition: Composition, submission: Submissio
     if submission.frames or math.isinf(submission.millimetres) or MECHANISM not in composition.views:
         return submission, ()
     spots = [spot for trace in submission.traces for spot in trace.spots]
-    extent = max((max(coordinates) - min(coordinates) for coordinates in zip(*spots, strict=True)), default=0.0)
+    extent = max((_extent(coordinates) for coordinates in zip(*spots, strict=True)), default=0.0)
     sheet = max(composition.arrangement.width, composition.arrangement.height)
     # as marks and letters are seen
     rough = 1.0 if not extent or sheet / measures.SIZE_RATIO < extent < sheet * measures.SIZE_RATIO else sheet / extent
@@ -110,13 +108,21 @@ def to_mm(drawing: Construction, composition: Composition, submission: Submissio
                for name, (mm, against) in measures.DRAWING_UNITS.items()}
     best = min(against, key=against.__getitem__)
     chance_cost = measures.ODD_SCALE_COST if _is_round_scale(scale * measures.DRAWING_UNITS[best][0], task) else 0.0
-    if against[best] > measures.OWN_UNIT_COST + submission.millimetres + chance_cost:  # a round scale is no chance
-        mm = task / scale
-        return scale_submission(submission, mm), (said("drawn in a unit of its own (1 unit = {0} mm)", digits(mm, 3)),)
-    if best == "mm":
+    is_own = against[best] > measures.OWN_UNIT_COST + submission.millimetres + chance_cost  # a round scale is no chance
+    if is_own and abs(math.log(scale / task)) > math.log(measures.SIZE_RATIO):
+        mm = min(task / scale, rough)  # no larger than the task's sheet, so that its errors are those of a pencil
+        return (replace(scale_submission(submission, mm), millimetres=-math.inf),
+                (said("drawn in a unit of its own (1 unit = {0} mm)", digits(mm, 3)),))
+    if is_own or best == "mm":
         return submission, ()
     mm = measures.DRAWING_UNITS[best][0]
     return scale_submission(submission, mm), (said("drawn in {0} (1 unit = {1} mm)", unit_of(best), digits(mm, 3)),)
+
+
+def _extent(coordinates: Sequence[float]) -> float:
+    """The width of a drawing by the coordinates of its spots, whatever lies far astray."""
+    low, high = np.percentile(coordinates, measures.EXTENT_PERCENTILES)
+    return float(high - low) * 100 / (measures.EXTENT_PERCENTILES[1] - measures.EXTENT_PERCENTILES[0])
 
 
 def _is_round_scale(scale: float, task: float) -> bool:
@@ -175,7 +181,7 @@ class FrameFinder:
         sigma = self._label_deviation
         marks, all_pairs = zip(*labelled, strict=True) if (labelled := self._labelled_pairs(MECHANISM)) else ((), ())
         fit = best_fit(given_pairs, sigma, self._task_scale) or best_fit(all_pairs, sigma)
-        if self.reading.asked is not None and fit and len(given_pairs) < measures.MIN_GIVEN_POINTS:
+        if self.reading.asked is not None and fit and len(given_pairs) < measures.MIN_WITNESSES:
             # one of few may be wrong, and marks that lie together fit in frames of any size; one mark may be far astray
             scale = median(abs(two[1] - one[1]) / apart for one, two in combinations(all_pairs, 2)
                            if (apart := abs(two[0] - one[0])))
@@ -242,9 +248,11 @@ class FrameFinder:
 
     def printed_panels(self, fits: Mapping[str, Fit]) -> frozenset[str]:
         """Plans of the task's sheet on which this drawing lies as printed, by these expected frames: the mechanism at
-        its printed scale, and a plan at its printed place, or most marks of another one at the printed scale."""
+        its printed scale, and a plan at its printed place, or most marks of another one at the printed scale; none
+        where the mechanism alone tells the unit of the drawing."""
         views, mechanism = self.reading.task.views, fits[MECHANISM].frame
-        if self.reading.on_task is None or not self.reading.has_printed_scale(mechanism):
+        is_sized = self.submission.millimetres > -math.inf
+        if not (is_sized and self.reading.on_task and self.reading.has_printed_scale(mechanism)):
             return frozenset()
         panels = [panel for panel in self.panels[1:] if panel in views and panel not in self.submission.frames]
         if any(self._is_at_printed_place(panel, fits) for panel in panels):
@@ -257,39 +265,30 @@ class FrameFinder:
         views, mechanism = self.reading.task.views, fits[MECHANISM]
         offset = complex(*views[panel].origin) - complex(*views[MECHANISM].origin)
         origin = mechanism.frame.origin + offset * mechanism.frame.unit / abs(mechanism.frame.unit)
-        tolerance = measures.FRAME_SIGMAS * math.hypot(2.0 * self._label_deviation, mechanism.turn * abs(offset))
+        tolerance = measures.SURE_SIGMAS * math.hypot(2.0 * self._label_deviation, mechanism.turn * abs(offset))
         return bool(self._labelled_pairs(panel)) and abs(fits[panel].frame.origin - origin) < tolerance
 
     def _has_printed_marks(self, panel: str, fits: Mapping[str, Fit]) -> bool:
         """Whether most marks lie to their plan's beginning as they do at the printed scale."""
         unit = fits[panel].frame.unit
         plan, sheet = self._plan_anchor(panel, unit) or (0j, 0j)
-        agreements = [abs(own / unit - 1) < measures.SAME_SIZE_SHARE + 3 * sigma
+        agreements = [abs(own / unit - 1) < measures.SAME_FRAME_SHARE + 3 * sigma
                       for own, sigma in self._anchored_units(panel, plan, sheet)]
         return 2 * sum(agreements) > len(agreements)
 
     def _plan_anchor(self, panel: str, unit: complex) -> Pair | None:
-        """Labelled beginning of a plan, unless other marks agree on another where strokes end; if its label may be
-        another's or is missing, the mark with which most others agree on the plan's beginning."""
+        """Labelled beginning of a plan; if its label may be another's or is missing, the mark with which most others
+        agree on the plan's beginning."""
         steps, pairs = self.drawing.drawn.steps, self._labelled_pairs(panel)
         pairs.sort(key=lambda pair: steps[pair[0]].op.movement is not Movement.BEGUN)
         origins = np.array([sheet - unit * plan for _, (plan, sheet) in pairs])
-        within = measures.FRAME_SIGMAS * 2.0 * self._label_deviation
+        within = measures.SURE_SIGMAS * 2.0 * self._label_deviation
         agreeing = (np.abs(origins[:, None] - origins[None, :]) < within).sum(axis=1)
         most = int(agreeing.argmax()) if pairs else 0
-        for own, (index, pair) in enumerate(pairs):
+        for index, pair in pairs:
             if steps[index].op.movement is Movement.BEGUN and is_sure(self.submission.traces[self.labels[index]]):
-                is_moved = agreeing[own] == 1 < agreeing[most] and self._begins_at(pairs[most][1], pair, unit, within)
-                return pairs[most][1] if is_moved else pair
+                return pair
         return pairs[most][1] if pairs else None
-
-    def _begins_at(self, mark: Pair, begun: Pair, unit: complex, within: float) -> bool:
-        """Whether strokes end where a plan would begin by one of its marks, and not at its labelled beginning."""
-        ends = np.array([complex(*spot) for trace in self.submission.traces if trace.kind == LINE
-                         for spot in trace.spots[:2]])
-        at = mark[1] + unit * (begun[0] - mark[0])
-        gaps = [float(np.abs(ends - spot).min(initial=math.inf)) for spot in (at, begun[1])]
-        return gaps[0] < within < gaps[1]
 
     def _carried_units(self, panel: str, matching: Matching) -> Iterator[tuple[complex, float]]:
         """Yield the unit of the plan by each vector on it that was brought from another plan, with its deviation."""
@@ -346,7 +345,7 @@ class FrameFinder:
             return None
         best_score, held_pairs, sigma = (min(3, len(points)) - 1, math.inf), list[Pair](), 4 * self.pencil.point
         for i, j in sorted(combinations(range(len(points)), 2), key=lambda ij: -abs(points[ij[0]] - points[ij[1]]))[
-                :measures.ANCHOR_PAIRS]:
+                :measures.CANDIDATES]:
             apart = points[j] - points[i]
             units = (unlabelled[None, :] - unlabelled[:, None]) / apart
             for k, l in permutations(range(len(unlabelled)), 2):
@@ -356,7 +355,7 @@ class FrameFinder:
                 if units[k, l] and score > best_score:
                     best_score = score
                     held_pairs = list(zip(points[near < sigma].tolist(), nearest[near < sigma].tolist(), strict=True))
-        chance = measures.ANCHOR_PAIRS * len(unlabelled) ** 2 * _sheet_share(unlabelled, sigma) ** (best_score[0] - 2)
+        chance = measures.CANDIDATES * len(unlabelled) ** 2 * _sheet_share(unlabelled, sigma) ** (best_score[0] - 2)
         return best_fit(held_pairs, self.pencil.point) if held_pairs and chance < measures.CHANCE_MECHANISMS else None
 
     def _voted_origins(self, panel: str, unit: complex) -> list[complex]:
@@ -376,20 +375,20 @@ class FrameFinder:
         def meets_unlabelled(spots: Any) -> Any:
             """Whether each spot has an unlabelled one near."""
             nearest = np.abs(spots[:, None] - unlabelled[None, :]).min(axis=1)
-            return nearest < 2 * measures.VOTE_SIGMAS * self.pencil.point
+            return nearest < 2 * measures.AGREED_SIGMAS * self.pencil.point
 
         votes = np.max([sum(meets_unlabelled(origins + unit * mark) for mark in plan) for plan in marks], axis=0)
-        return [complex(origins[k]) for k in np.argsort(-votes, kind="stable")[:measures.MAX_ORIGINS]]
+        return [complex(origins[k]) for k in np.argsort(-votes, kind="stable")[:measures.CANDIDATES]]
 
     def _heaped_origins(self, origins: Any) -> list[complex]:
         """The origins that most marks vote for."""
-        cell = measures.VOTE_SIGMAS * self.pencil.point
+        cell = measures.AGREED_SIGMAS * self.pencil.point
         heaps = sorted((heap for wide in (cell, 3 * cell) for heap in _vote_heaps(origins, wide)), reverse=True)
         origins_kept: list[complex] = []
         for _, x, y in heaps:
             if all(abs(complex(x, y) - origin) > 4 * cell for origin in origins_kept):
                 origins_kept.append(complex(x, y))
-        return origins_kept[:measures.MAX_ORIGINS]
+        return origins_kept[:measures.CANDIDATES]
 
     def find_origins(self, fits: Mapping[str, Fit]) -> dict[int, int]:
         """The unlabelled points that are the beginnings of plans, by step."""
@@ -401,7 +400,7 @@ class FrameFinder:
                 frame = fits[self.plan_of_step[step.index]].frame
                 expected_spot = frame.to_sheet(complex(*self.drawing.values[step.index][:2]))
                 place, spot = min(points, key=lambda point: abs(point[1] - expected_spot))
-                if abs(spot - expected_spot) < measures.VOTE_SIGMAS * self.pencil.point:
+                if abs(spot - expected_spot) < measures.AGREED_SIGMAS * self.pencil.point:
                     origin_places[step.index] = place
         return origin_places
 
@@ -411,7 +410,7 @@ def _vote_heaps(spots: Any, cell: float) -> Iterator[tuple[int, float, float]]:
     for shift in (0, 0.5 + 0.5j, 0.5, 0.5j):  # a heap may lie across the cells of one grid
         cells = np.floor(spots.real / cell + shift.real) + 1j * np.floor(spots.imag / cell + shift.imag)
         _, cell_of_spot, counts = np.unique(cells, return_inverse=True, return_counts=True)
-        for heap in np.argsort(counts)[-measures.MAX_HEAPS:]:
+        for heap in np.argsort(counts)[-measures.MANY_CANDIDATES:]:
             heap_spots = spots[cell_of_spot == heap]
             yield int(counts[heap]), float(np.median(heap_spots.real)), float(np.median(heap_spots.imag))
 
@@ -426,7 +425,7 @@ def _line_crossing(one: Sequence[complex], two: Sequence[complex]) -> complex | 
     """Intersection of two lines; None if they are almost parallel."""
     u, v = one[1] - one[0], two[1] - two[0]
     sine = (u.conjugate() * v).imag
-    if abs(sine) < measures.MIN_LINE_SINE * abs(u) * abs(v):
+    if abs(sine) < measures.MIN_CROSSING_SINE * abs(u) * abs(v):
         return None
     return one[0] + ((two[0] - one[0]).conjugate() * v).imag / sine * u
 
@@ -436,7 +435,7 @@ def agreed_units(units: Sequence[tuple[complex, float]]) -> Iterator[tuple[int, 
     group first."""
     groups = []
     for unit, sigma in units:
-        group = [(u, s) for u, s in units if abs(u - unit) < measures.FRAME_SIGMAS * math.hypot(sigma, s) * abs(unit)]
+        group = [(u, s) for u, s in units if abs(u - unit) < measures.SURE_SIGMAS * math.hypot(sigma, s) * abs(unit)]
         weights = [1 / s**2 for _, s in group]
         mean = sum(w * u for w, (u, _) in zip(weights, group, strict=True)) / sum(weights)
         groups.append((len(group), mean, sum(weights) ** -0.5))
@@ -465,7 +464,7 @@ def best_fit(pairs: Sequence[Pair], sigma: float, usual: float = 0.0, ratio: flo
             if usual and not 1 / ratio <= abs(unit) / usual <= ratio:
                 continue
             off = [abs(sheet - first[1] - unit * (plan - first[0])) for plan, sheet in pairs]
-            kept_places = [place for place, far in enumerate(off) if far <= measures.FRAME_SIGMAS * 2.0 * sigma]
+            kept_places = [place for place, far in enumerate(off) if far <= measures.SURE_SIGMAS * 2.0 * sigma]
             missed = sum(off[place] ** 2 for place in kept_places)
             if len(kept_places) == 2 and usual:
                 missed = abs(math.log(abs(unit) / usual))
@@ -491,11 +490,11 @@ def fit_frame(pairs: Sequence[Pair], sigma: float, slips: Sequence[float]) -> Fi
 def frame_turn(fit: Fit, unit: complex) -> float:
     """Turn of a plan from its right direction, in radians; 0 if it may be right."""
     ratio = fit.frame.unit / unit
-    sine = 3 * fit.turn + measures.SAME_DIRECTION_SINE
+    sine = 3 * fit.turn + measures.SAME_FRAME_SHARE
     return 0.0 if ratio.real > 0 and abs(ratio.imag) < sine * abs(ratio) else cmath.phase(ratio)
 
 
-def departures(own: Collection[Fit], is_printed: bool, others: int = 0) -> float:
+def departures(own: Collection[Fit], others: int = 0, *, is_printed: bool) -> float:
     """Count of mistakes for plans in frames of their own, and for `others`, the scale and sense of velocities: plans of
     one scale count once, and the first, where its scale is printed, more than a wrong vector."""
     scales, redirected = list[Fit](), sum(not fit.aligned for fit in own)
@@ -503,11 +502,11 @@ def departures(own: Collection[Fit], is_printed: bool, others: int = 0) -> float
         if fit.aligned and all(frame_stretch(fit, known.frame.unit) != 1.0 for known in scales):
             scales.append(fit)
     rescaled = len(scales) + others
-    first = measures.PRINTED_SCALE_STEPS - measures.RESCALED_STEPS if is_printed and rescaled else 0.0
+    first = measures.REDIRECTED_STEPS - measures.RESCALED_STEPS if is_printed and rescaled else 0.0
     return measures.REDIRECTED_STEPS * redirected + measures.RESCALED_STEPS * rescaled + first
 
 
 def frame_stretch(fit: Fit, unit: complex) -> float:
     """Scale of a plan relative to the right one; 1 if it may be right."""
     ratio = abs(fit.frame.unit / unit)
-    return 1.0 if abs(math.log(ratio)) < 3 * fit.turn + measures.SAME_SIZE_SHARE else ratio
+    return 1.0 if abs(math.log(ratio)) < 3 * fit.turn + measures.SAME_FRAME_SHARE else ratio

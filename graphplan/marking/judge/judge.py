@@ -19,7 +19,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
 from graphplan.kernel.passes import steps_behind
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.conventions import Proposer, find_orphans, unmirror
+from graphplan.marking.judge.designs import OtherDesigns, find_orphans, unmirror
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained_traces, with_wobble
 from graphplan.marking.judge.frames import FrameFinder, SheetReading, departures, mirror_submission, to_mm
 from graphplan.marking.judge.lettering import is_sure, labelled_steps, name_marks
@@ -27,7 +27,7 @@ from graphplan.marking.judge.matching import Matching, count_wrong, matches_on
 from graphplan.marking.judge.numbers import judge_numbers, results_drawn_right, true_results
 from graphplan.marking.judge.search import Search, likelihood, wrong_arrow
 from graphplan.marking.judge.student_sheet import Fit, SharedMarks, StudentSheet
-from graphplan.marking.judge.verdict import WRONG, FaultCount, Judgement
+from graphplan.marking.judge.verdict import WRONG, Judgement
 from graphplan.marking.judge.verdicts import verdicts
 from graphplan.marking.judge.whole_plans import (
     WholePlan,
@@ -87,7 +87,7 @@ class Judge:
         points = (place for place, trace in enumerate(traces) if trace.label in self.drawing.scene.points)
         taken = {*self.orphaned_marks, *certain, *points}
         self.unlabelled = [place for place, trace in enumerate(traces) if place not in taken and not (
-            self.submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < measures.MIN_PICTURE_LINE_MM)]
+            self.submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < measures.LONE_LINE_MM)]
 
     @property
     def has_nameless_marks(self) -> bool:
@@ -106,10 +106,9 @@ class Judge:
         """The way through in the frames that fit best, with the mistakes that make it likelier, letters that marks have
         of each other being put right."""
         matching = self.matching(self.fits, measures.MAX_MISTAKES)
-        put_right = [step for step, place in sorted(self.labels.items()) if place in self.reading.exchanged]
-        pairs = [(put_right[0], put_right[1])] if len(put_right) == 2 else list(exchanged_pairs(matching))
-        self._exchanged = [pair for pair in pairs if put_right or are_surely_lettered(matching, pair)]
-        if pairs and not put_right:
+        pairs = list(exchanged_pairs(matching))
+        self._exchanged = [pair for pair in pairs if are_surely_lettered(matching, pair)]
+        if pairs:
             self.labels |= {step: self.labels[partner] for pair in pairs for step, partner in (pair, pair[::-1])}
             matching = self.matching(self.fits, measures.MAX_MISTAKES)
         return self._with_wrong_arrows(matching)
@@ -163,7 +162,7 @@ class Judge:
         return list(deviating_plans(self.reading, panels, self.fits))
 
     @property
-    def unused_numbers(self) -> int:
+    def _unused_numbers(self) -> int:
         """Number of points whose numbers the reading leaves out and that are no marks of the construction."""
         traces = self.likeliest.traces
         needed = {traces[place].spots for place in self.likeliest.used | self.likeliest.over}
@@ -171,32 +170,32 @@ class Judge:
                    for place in self.reading.numbered)
 
     @property
-    def acquits(self) -> bool:
-        """Whether points whose numbers the reading leaves out are no marks, and it calls nothing wrong."""
-        return bool(self.unused_numbers and not self.judgement.fault_count.wrong)
-
-    @property
-    def fault_count(self) -> FaultCount:
-        """The number of faults of the reading, that it departs from the printed scales among them."""
+    def _departures(self) -> float:
+        """The number of mistakes that it counts for that plans depart from printed scales."""
         fits = [fit for panel, fit in self.fits.items()
                 if panel != MECHANISM and not fit.tied and panel in self.printed_panels]
-        departs = self.reading.departs if MECHANISM in self.printed_panels else 0
-        faults = self.judgement.fault_count
-        return faults._replace(wrong=faults.wrong + departures(fits, True, departs) + self.unused_numbers)
+        return departures(fits, self.reading.departs if MECHANISM in self.printed_panels else 0, is_printed=True)
+
+    @property
+    def faults(self) -> tuple[float, int, int]:
+        """Number of marks that are wrong, departures from printed scales among them, and of points whose numbers are
+        left out; of missing ones; and of letters without a use."""
+        count = self.judgement.fault_count
+        return count.wrong + self._departures + self._unused_numbers, count.missing, count.strange_letters
 
     @property
     def has_faults(self) -> bool:
         """Whether something is wrong or missing, or cannot be judged."""
-        return bool(self.orphaned_marks or self.fault_count.wrong or self.fault_count.missing)
+        return bool(self.orphaned_marks) or any(self.faults[:2])
 
     def explains_more(self, rival: Judge) -> bool:
-        """Whether its faults speak for it, or else whether all that it explains does."""
-        if self.acquits:
+        """Whether it leaves fewer faults than a rival, and of no sort more, or else is likelier; not where it calls no
+        mark wrong, but leaves some out."""
+        if self._unused_numbers and not self.judgement.fault_count.wrong:
             return False
-        mine, its = self.fault_count, rival.fault_count
-        if mine.leaves_less_over(its) or its.leaves_less_over(mine):
-            return mine.leaves_less_over(its)
-        return mine.is_less_wrong(its) or self.weight > rival.weight
+        fewer, more = (any(one < other for one, other in zip(*pair, strict=True))
+                       for pair in ((self.faults, rival.faults), (rival.faults, self.faults)))
+        return self.weight > rival.weight if fewer == more else fewer
 
     @property
     def weight(self) -> float:
@@ -206,13 +205,14 @@ class Judge:
         numbers = sum(measures.NUMBER_ODDS if number.state != WRONG else -measures.NUMBER_ODDS
                       for number in judgement.numbers)
         return (self._prior + likelihood(self.likeliest) + numbers
-                + measures.STRANGE_LETTER_ODDS * judgement.fault_count.strange_letters
-                + measures.UNNAMED_MISTAKE_ODDS * self.unused_numbers
+                + measures.DEPARTURE_ODDS * judgement.fault_count.strange_letters
+                + measures.KNOWN_MISTAKE_ODDS * self._departures
+                + measures.UNNAMED_MISTAKE_ODDS * self._unused_numbers
                 + sum(measures.KNOWN_MISTAKE_ODDS if kind else measures.UNNAMED_MISTAKE_ODDS for kind in wrong))
 
     @cached_property
-    def quick_weight(self) -> float:
-        """Upper bound of the weight, without a search for mistakes: every wrong mark may be one."""
+    def first_look(self) -> float:
+        """Weight of this reading without a search for mistakes: every wrong mark may be one."""
         matching = self.matching(self.fits)
         return self._prior + likelihood(matching) + measures.KNOWN_MISTAKE_ODDS * count_wrong(matching.matches)
 
@@ -222,9 +222,9 @@ class Judge:
         frame = self.fits[MECHANISM].frame
         free = [fit for panel, fit in self.fits.items()
                 if panel != MECHANISM and not fit.tied and panel not in self.submission.frames]
-        turned = sum(abs(cmath.phase(fit.frame.unit / frame.unit)) > measures.SAME_DIRECTION_SINE + 3 * fit.turn
+        turned = sum(abs(cmath.phase(fit.frame.unit / frame.unit)) > measures.SAME_FRAME_SHARE + 3 * fit.turn
                      for fit in free)
-        return self.reading.prior + measures.OWN_FRAME_ODDS * (len(free) + turned)
+        return measures.DEPARTURE_ODDS * (len(self.reading.remarks) + len(free) + turned)
 
     @property
     def hidden_steps(self) -> set[int]:
@@ -294,7 +294,7 @@ class Judge:
         """Count of marks that are wrong in these frames, and of mistakes that these are beside the expected ones."""
         wrong = count_wrong(self._start_matching(fits).match_until(len(self.drawing.drawn.steps)).matches)
         departing = {panel: fit for panel, fit in fits.items() if fit is not expected[panel]}
-        return wrong + departures(departing.values(), not self.printed_panels.isdisjoint(departing))
+        return wrong + departures(departing.values(), is_printed=not self.printed_panels.isdisjoint(departing))
 
     def _fit_plans(self, fits: dict[str, Fit], register: FrameFinder, freed: Collection[str]) -> dict[str, Fit]:
         """The frames of the plans, of the freed ones those that explain their own steps best, one after the other."""
@@ -352,33 +352,23 @@ class Judge:
         return Matching(evidence, self.labels, measures.FALSE_ALARM_CHANCE / max(1, len(self.drawing.drawn)))
 
 
-def judge_any_method(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
+def judge_any_design(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
                      plan: str = "") -> Judgement:
-    """Return the judgement of a drawing as the task has it, or as it is likelier meant.
+    """Return the judgement of a drawing by the design of the task, or by the one that explains it best.
 
-    Other readings are thought of only where a mark is wrong or missing: velocities of another scale or sense, and
-    unless `plan` names one, other plans. Fails as :func:`judge` does.
+    Others are thought of only where a mark is wrong or missing; other plans, where `plan` asks for none. Fails as
+    :func:`judge` does.
     """
     refuse_exact_pencil(pencil)
     best = first = Judge(unmirror(drawing, composition, submission, pencil),
                          assumed_pencil(pencil, submission)).with_seen_pencil
-    if best.has_faults:
-        proposer = Proposer(best.reading, replace(best.named, letters=()), best.fits[MECHANISM].frame, pencil, plan)
-        best = _likelier_judge(best, proposer.readings())
+    if first.has_faults:
+        others = OtherDesigns(first.reading, replace(first.named, letters=()), first.fits[MECHANISM].frame, pencil,
+                              plan)
+        for rival in sorted(_judges(others.readings(), first.hand), key=lambda rival: -rival.first_look):
+            if rival.first_look + measures.CLOSER_LOOK_ODDS > best.weight and rival.explains_more(best):
+                best = rival
     return (best if best is first else best.with_seen_pencil).judgement
-
-
-def _likelier_judge(best: Judge, readings: Iterable[SheetReading]) -> Judge:
-    """The likeliest of some readings; those alone are looked at closely that promise most at a glance."""
-    rivals = sorted(_judges(readings, best.hand), key=lambda rival: rival.quick_weight)[::-1]
-    looked_at = rivals[:measures.READINGS_LOOKED_AT]
-    remarks = {rival.reading.remarks for rival in looked_at}
-    if len(remarks) == 1:  # they differ in a scale alone
-        looked_at += [rival for rival in rivals if rival.reading.remarks not in remarks][:1]
-    for rival in looked_at:
-        if rival.quick_weight + measures.CLOSER_LOOK_ODDS > best.weight and rival.explains_more(best):
-            best = rival
-    return best
 
 
 def _judges(readings: Iterable[SheetReading], hand: SeenPencil) -> Iterator[Judge]:
@@ -459,7 +449,7 @@ def seen_pencil(matching: Matching, now: SeenPencil, submission: Submission) -> 
     """The pencil that a drawing shows, from a way through it that was judged by another; None where too few marks tell
     it."""
     samples = list(_pencil_samples(matching))
-    if len(samples) < measures.MIN_SAMPLES:
+    if len(samples) < measures.MIN_WITNESSES:
         return None
     rounding = max(0.0, min((trace.blur**2 for trace in submission.traces), default=0.0))
     read, stated_shares, reading_ratios = np.zeros(1), np.ones(1), np.ones(1)

@@ -69,7 +69,7 @@ class Letters:
     def __init__(self, drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
                  within: float = 0.0):
         self.drawing, self.submission = drawing, submission
-        self.within = within or measures.LETTER_FRAME_SIGMAS * pencil.point
+        self.within = within or measures.AGREED_SIGMAS * pencil.point
         self.multiples = composition.scales.multiples
         self.hidden = {mark.index for plate in composition.plates for mark in plate.hidden_marks} if (
             composition.plans.drawing is drawing) else set[int]()  # but their letters stand on the task's sheet
@@ -132,10 +132,10 @@ class Letters:
         """Marks that letters may name, with the price of their distance: those of points name points, Greek ones lines.
         A leader that ends in a mark names it. Where their leader ends in a mark, it is that."""
         anchor = _anchor(word)
-        places = self._figures.query(anchor, "dwithin", measures.LEADER_TIP_MM if word.leads else _letter_reach(word))
+        places = self._figures.query(anchor, "dwithin", measures.ASIDE_MM if word.leads else _letter_reach(word))
         gaps = shapely.distance(self._figures.geometries[places], anchor)
         named = LINE in steps or (not steps and can_name_line(name))
-        nearest = np.argsort(gaps, kind="stable")[:measures.THINGS_NEAR_LETTER]
+        nearest = np.argsort(gaps, kind="stable")[:measures.MAX_CROWD]
         costs, marks_of_leader = list[tuple[float, int]](), Wish()
         for gap, place in zip(gaps[nearest].tolist(), places[nearest].tolist(), strict=True):
             trace = self.traces[place]
@@ -180,7 +180,7 @@ class Letters:
         """Frame of the mechanism, by its given points or else by all that are lettered."""
         given_candidates = self._plan_candidates(MECHANISM, self.drawing.drawn.givens)
         # where strokes cross beside two letters, some two always do
-        few = self.ends and len(given_candidates) < measures.MIN_GIVEN_POINTS
+        few = self.ends and len(given_candidates) < measures.MIN_WITNESSES
         return (None if few else agreed_frame(given_candidates, (), self.within, self.task)) or agreed_frame(
             self._plan_candidates(MECHANISM), (), self.within, self.task)
 
@@ -229,7 +229,7 @@ class Letters:
         spots = [self._true_spots[step.index] for step in self.drawing.drawn.steps if step.op.gives == POINT]
         return set() if None in spots else {
             place for place, trace in enumerate(self.submission.traces) if trace.kind == POINT
-            and np.abs(np.array(spots) - complex(*trace.spots[0])).min(initial=np.inf) > measures.HALF_COST_MM}
+            and np.abs(np.array(spots) - complex(*trace.spots[0])).min(initial=np.inf) > measures.ASIDE_MM}
 
     @cached_property
     def _sharers(self) -> Counter[int]:
@@ -243,7 +243,7 @@ class Letters:
     def named_submission(self) -> Submission:
         """The drawing with the names of its marks."""
         assignment = assign_labels([self._weigh(word) for word in self.words], measures.NAMELESS_COST,
-                                   measures.SECOND_NAME_COST)
+                                   measures.WRONG_NAME_COST)
         astray = self._dots_astray(assignment)
         names: dict[int, list[tuple[str, bool]]] = {}
         for order, (word, place) in enumerate(zip(self.words, assignment, strict=True)):
@@ -269,8 +269,8 @@ class Letters:
             marks = {order: at for order, at in self._letters_in_place.items()
                      if self.plan_of_step[self.words[order].steps[POINT]] == panel}
             lone = [order for order, at in marks.items()
-                    if assignment[order] not in dots and not (np.abs(spots - at) < measures.HALF_COST_MM).any()]
-            if len(lone) == 1 and len(marks) >= measures.MIN_DOTTED_MARKS:
+                    if assignment[order] not in dots and not (np.abs(spots - at) < measures.ASIDE_MM).any()]
+            if len(lone) == 1 and len(marks) >= measures.MIN_WITNESSES:
                 lettered = {place for order, place in enumerate(assignment) if place is not None and order != lone[0]
                             and self._names_point(order) and self.words[order].wish[place] < measures.CLEAR_COST}
                 near = [place for place in self._stray_dots - lettered
@@ -298,14 +298,14 @@ class Letters:
             off = self._distance_off(one.steps[trace.kind], trace) if trace.kind in one.steps else math.inf
             if place >= len(self.submission.traces) and not self._may_mean(one, place, off):
                 continue
-            claimed = one.steps and place in self._claimed_points and off > measures.HALF_COST_MM
+            claimed = one.steps and place in self._claimed_points and off > measures.ASIDE_MM
             stray_number = one.names[0].isdigit() and place in self._stray_dots
             leaves_dot = place in self.tips and not self._stray_dots.isdisjoint(one.wish)
-            costs[place] = (cost + _astray_cost(off) + measures.CLAIMED_COST * bool(claimed)
+            costs[place] = (cost + _astray_cost(off) + measures.CLEAR_COST * bool(claimed)
                             + measures.LEFT_DOT_COST * leaves_dot
-                            + measures.FOREIGN_COST * (not one.steps or stray_number))
+                            + measures.WRONG_NAME_COST * (not one.steps or stray_number))
             if off < measures.DIFFERENT_MM:
-                costs[place] -= measures.SECOND_NAME_COST * self._sharers[one.steps[trace.kind]]
+                costs[place] -= measures.WRONG_NAME_COST * self._sharers[one.steps[trace.kind]]
         return costs
 
     def _may_mean(self, one: LetteredWord, place: int, off: float) -> bool:
@@ -315,8 +315,8 @@ class Letters:
         if step is None or place in self.alone:
             return step is not None and (off < _letter_reach(one.word) or not one.names[0].isdigit())
         at = self._true_spots[step]
-        if off < measures.HALF_COST_MM or at is None:
-            return off < measures.HALF_COST_MM or place not in self.ends
+        if off < measures.ASIDE_MM or at is None:
+            return off < measures.ASIDE_MM or place not in self.ends
         return place not in self.ends and one.word.box.distance(Point(at.real, at.imag)) > _letter_reach(one.word)
 
     def _undotted_cost(self, one: LetteredWord) -> float:
@@ -332,7 +332,7 @@ class Letters:
                 place >= len(self.submission.traces)):
             return False
         off = self._distance_off(one.steps[POINT], self.traces[place])
-        if one.names[0].isdigit() and off > 2 * measures.HALF_COST_MM:
+        if one.names[0].isdigit() and off > 2 * measures.ASIDE_MM:
             return False
         if place in self._stray_dots and self._stray_dots.isdisjoint(one.wish.keys() - {place}):
             return one.wish[place] + _astray_cost(off) < self._undotted_cost(one)
@@ -344,7 +344,7 @@ class Letters:
 
 def _astray_cost(off: float) -> float:
     """Price of a mark's distance from its right place, in mm."""
-    return measures.MISPLACED_COST / (1 + (measures.HALF_COST_MM / off) ** 2) if off else 0.0
+    return measures.WRONG_NAME_COST / (1 + (measures.ASIDE_MM / off) ** 2) if off else 0.0
 
 
 def _letters_as_mark(word: Lettering) -> Trace:
@@ -360,7 +360,7 @@ def _anchor(word: Lettering) -> Any:
 
 def _letter_reach(word: Lettering) -> float:
     """Largest distance of a mark from its letters, in mm."""
-    return max(measures.LETTER_REACH_MM, measures.LETTER_REACH_SIZES * word.size)
+    return max(measures.REACH_MM, measures.LETTER_REACH_SIZES * word.size)
 
 
 def _spoken_steps(names: LabelTable, called: Sequence[str], sure: Container[int]) -> dict[str, dict[str, int]]:
@@ -401,7 +401,7 @@ class LetterPlace:
 
     def cost(self, word: Lettering, mark: complex) -> float:
         """Price of letters at a mark: larger with their distance from the usual place."""
-        ratio = self.departure(word, mark) / (measures.LETTER_PLACE_SIZES * word.size)
+        ratio = self.departure(word, mark) / (measures.LETTER_GAP_SIZES * word.size)
         return measures.STRAY_LETTER_COST * ratio**2 / (1 + ratio**2)
 
 
@@ -419,7 +419,7 @@ def usual_place(words: Sequence[tuple[Lettering, Wish]], traces: Sequence[Trace]
         gaps = sorted(abs(z - middle) / word.size for z, (word, _) in zip(offsets, own_marks, strict=True))
         places.append(LetterPlace(reference, middle, gaps[int(measures.PLACED_SHARE * (len(gaps) - 1))]))
     best = min(places, key=lambda place: place.spread)
-    return best if best.spread < measures.LETTER_PLACE_SIZES / 2 else None
+    return best if best.spread < measures.LETTER_GAP_SIZES / 2 else None
 
 
 def _only_mark(wish: Wish, traces: Sequence[Trace]) -> complex | None:
@@ -487,7 +487,7 @@ def _propose_frames(at: Any, owner: Any, spots: Any, units: Sequence[complex]
     """Units and origins of frames: with the expected unit through every spot, and any through two of two marks."""
     tied = np.repeat(np.array(units, dtype=complex), len(spots))
     origins = np.tile(spots, len(units)) - tied * np.tile(at[owner], len(units))
-    near = np.flatnonzero(np.concatenate([np.arange(count) < measures.SPOTS_PER_MARK for count in np.bincount(owner)]))
+    near = np.flatnonzero(np.concatenate([np.arange(count) < measures.CANDIDATES for count in np.bincount(owner)]))
     near = near[:: max(1, len(near) // measures.MAX_FRAME_SPOTS)]
     pairs = sorted(((i, j) for i, j in combinations(near.tolist(), 2) if at[owner[i]] != at[owner[j]]
                     and spots[i] != spots[j]),
@@ -670,7 +670,7 @@ def stroke_meetings(box: Polygon, reach: float, traces: Sequence[Trace], figures
                     ) -> tuple[list[Trace], list[Trace]]:
     """Points where strokes cross about a box of letters, as sure as these are drawn; and where lines end."""
     strokes = [traces[place] for place in figures.query(box, "dwithin", reach)
-               if traces[place].kind != POINT][:measures.STROKES_NEAR_LETTER]
+               if traces[place].kind != POINT][:measures.MANY_CANDIDATES]
     left, bottom, right, top = box.bounds
 
     spots_found: list[complex] = []

@@ -47,7 +47,7 @@ class Match:
     def sharp_weight(self) -> float:
         """Weight reduced for a mark that might as well be elsewhere: if nearly every place fits, the mark is no
         evidence."""
-        vague = self.residual.vague(measures.SHARP_MM) if self.residual and self.state != WRONG else 0.0
+        vague = self.residual.vague(measures.BESIDE_MM) if self.residual and self.state != WRONG else 0.0
         return max(self.weight - vague, min(self.weight, 0.0))
 
 
@@ -145,7 +145,7 @@ class Matching:
         """The dot, or else the end of a stroke, where the frame of a plan has its beginning: it is free, so that no
         slip of the hand makes it wrong."""
         places, off = self.evidence.nearby_traces(POINT, self.sheet.plan_of_step[step.index], plain_value(expected))
-        within = measures.ORIGIN_SIGMAS * self.sheet.pencil.point
+        within = measures.AGREED_SIGMAS * self.sheet.pencil.point
         if off.min(initial=math.inf) < within:
             return int(places[off.argmin()])
         trace = self.evidence.search(step, expected, self._known_marks(drawn), within)
@@ -192,7 +192,7 @@ class Matching:
         places, off = self.evidence.nearby_traces(step.op.gives, self.sheet.plan_of_step[step.index],
                                                   plain_value(expected))
         best: tuple[bool, float, int] | None = None
-        for k in np.argsort(off)[:measures.TRACES_TRIED] if len(places) else ():
+        for k in np.argsort(off)[:measures.CANDIDATES] if len(places) else ():
             if not off[k] < measures.MAX_ASTRAY_MM:
                 break
             residual = self.residual(step, expected, places[k], drawn)
@@ -294,7 +294,8 @@ class Matching:
     def _weigh_trace(self, place: int, residual: Residual | None, seen: Any) -> float:
         """Weight of a trace for this matching; a wrong one by its distance."""
         kind = self.traces[place].kind
-        if not (self._claimed_places.isdisjoint({place, *self.evidence.twins(place)}) or self._is_one_mark(place)):
+        is_free = self._claimed_places.isdisjoint({place, *self.evidence.twins(place)})
+        if not (is_free or self.is_one_mark(place, self.next_step.index)):
             return measures.SHARED_ODDS
         needs_share = self.evidence.picture and kind != POINT
         share = self.evidence.visible_share(self.next_step, seen, self._known_marks(self.own)) if needs_share else None
@@ -310,11 +311,11 @@ class Matching:
             return self.used
         return {match.place for match in self.matches if match.place is not None and match.step.name}
 
-    def _is_one_mark(self, place: int) -> bool:
-        """Whether a dot of a file is the mark of an earlier step where the next step has its mark too."""
-        shared, step = self.evidence.shared_marks, self.next_step.index
-        return not self.evidence.picture and any(match.place == place and shared.are_one(match.step.index, step)
-                                                 for match in self.matches)
+    def is_one_mark(self, place: int, index: int) -> bool:
+        """Whether a dot of a file is the mark of a step before another that has its mark there too."""
+        shared = self.evidence.shared_marks
+        return not self.evidence.picture and any(match.place == place and shared.are_one(match.step.index, index)
+                                                 for match in self.matches[:index])
 
     def _missed_weight(self, expected: Any) -> float:
         """Weight of a missing trace for this matching."""

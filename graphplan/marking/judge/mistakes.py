@@ -19,6 +19,7 @@ from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import Program, Step
 from graphplan.marking.judge import measures
 from graphplan.methods.construction import Construction
+from graphplan.methods.kinds import ACCELERATION, VELOCITY
 from graphplan.methods.motion.acceleration import CORIOLIS, NORMAL
 from graphplan.phrases import Phrase, Said, digits, phrase, said
 
@@ -126,6 +127,7 @@ def _distance_ratio(domain: Domain, P: Any, Q: Any, R: Any, S: Any) -> Any:
 
 
 NORMAL_LETTER, CORIOLIS_LETTER = "n", "k"
+END_LETTERS = {VELOCITY: "v", ACCELERATION: "a"}
 
 
 def vector_letters(drawing: Construction) -> dict[str, int]:
@@ -140,6 +142,9 @@ def vector_letters(drawing: Construction) -> dict[str, int]:
             links = [name for name, link in drawing.scene.links.items()
                      if letter == NORMAL_LETTER and {*pair} <= {*link}]
             names |= {f"{letter}_{low}": step.index for low in ("".join(reversed(pair)), *points, *links)}
+    for reading in drawing.readings if not drawing.turned else ():  # from a pole ends bear the letters of points
+        if reading.kind in END_LETTERS:
+            names[f"{END_LETTERS[reading.kind]}_{reading.of}"] = drawing.drawn.wanted[reading.marks[-1]]
     return names
 
 

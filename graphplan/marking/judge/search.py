@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, permutations
@@ -129,16 +129,39 @@ class Search:
     def _guesses(self, matching: Matching, found: Found) -> Iterator[Guess]:
         """All that may have been mistaken, with what a glance says for it."""
         quick = QuickScore(matching, {index: guess for index, guess in found.items() if isinstance(guess, Mistake)})
-        uses = Counter(match.place for match in matching.matches)
+        shared = self._shared_places(matching)
         lost = {arg for match in matching.matches if match.weight < 0 for arg in match.step.args}
+        settled = self._settled_steps(matching, shared)
         for match in matching.matches:
             if match.step.index in found:
                 continue
-            if match.place is not None and (match.step.index in lost or uses[match.place] > 1):
+            if match.place is not None and (match.step.index in lost or match.place in shared):
                 yield from self._other_traces(matching, match)
-            right = is_clear(match) and uses[match.place] == 1 and not self._may_be_anothers(matching, match)
-            if not right and match.step.index not in matching.labels and not match.step.op.free:
+            if not (match.step.index in settled or match.step.index in matching.labels or match.step.op.free):
                 yield from self._mistake_guesses(matching, quick, match)
+
+    def _shared_places(self, matching: Matching) -> set[int]:
+        """The places of traces that several steps are taken for, but for those whose marks are one."""
+        owners, shared = dict[int, int](), set[int]()
+        for match in matching.matches:
+            if match.place is not None:
+                owner = owners.setdefault(match.place, match.step.index)
+                if owner != match.step.index and not matching.is_one_mark(match.place, match.step.index):
+                    shared.add(match.place)
+        return shared
+
+    def _settled_steps(self, matching: Matching, shared: Collection[int]) -> set[int]:
+        """The steps at which no mistake is thought of: those whose marks are clearly right, and those without a mark to
+        be seen of which nothing but such marks was made."""
+        settled, doubtful = set[int](), set[int]()
+        for match in reversed(matching.matches):
+            is_right = is_clear(match) and match.place not in shared and not self._may_be_anothers(matching, match)
+            is_unseen = match.place is None and match.weight >= 0.0 and match.step.index not in doubtful
+            if is_right or is_unseen:
+                settled.add(match.step.index)
+            else:
+                doubtful.update(match.step.args)
+        return settled
 
     def _may_be_anothers(self, matching: Matching, match: Match) -> bool:
         """Whether a picture's dot, which has no letter, may be another mark's that is by chance where this should be:
@@ -156,10 +179,10 @@ class Search:
         assert match.place is not None
         for place in matching.evidence.neighbours(match.place, home, plain_value(matching.own[step.index])):
             if matching.residual(step, match.expected, place, matching.own).fits(matching.chance):
-                yield Guess(step.index, place, self._first_mistake_odds - measures.NEIGHBOUR_ODDS,
+                yield Guess(step.index, place, self._first_mistake_odds - measures.FIRST_MISTAKE_ODDS,
                             measures.NEIGHBOUR_PROMISE)
         if step.op.gives == POINT:
-            yield Guess(step.index, UNMARKED, self._first_mistake_odds - measures.NEIGHBOUR_ODDS,
+            yield Guess(step.index, UNMARKED, self._first_mistake_odds - measures.FIRST_MISTAKE_ODDS,
                         measures.NEIGHBOUR_PROMISE)
 
     def _mistake_guesses(self, matching: Matching, quick: QuickScore, match: Match) -> Iterator[Guess]:
@@ -172,7 +195,7 @@ class Search:
         for mistake in table:
             prior = measures.MISTAKE_ODDS - math.log(len(alike)) - math.log(alike[mistake.kind])
             promise = quick.gain_of(mistake) + prior
-            if promise > measures.MIN_PROMISE_ODDS:
+            if promise > measures.HOPELESS_ODDS:
                 yield Guess(step.index, mistake, prior, promise)
         faint = match.place is None or matching.evidence.weight(match.place) < measures.CLEAR_ODDS
         is_dot = step.op.gives == POINT and matching.evidence.picture
@@ -196,11 +219,11 @@ def has_own_ink(matching: Matching, match: Match) -> bool:
     if match.place is None or match.step.op.gives == POINT or not matching.evidence.picture:
         return True
     stroke, traces = matching.traces[match.place], matching.traces
-    reach = stroke.figure.buffer(measures.STROKE_NEAR_MM)
+    reach = stroke.figure.buffer(measures.BESIDE_MM)
     if stroke.kind == LINE:
         start, end = (np.array(spot) for spot in stroke.spots[:2])
-        beyond = measures.LINE_END_MM * (end - start) / math.dist(start, end)
-        reach = LineString([start - beyond, end + beyond]).buffer(measures.STROKE_NEAR_MM)
+        beyond = measures.DRIFT_MM * (end - start) / math.dist(start, end)
+        reach = LineString([start - beyond, end + beyond]).buffer(measures.BESIDE_MM)
     right = [traces[twin.place] for twin in matching.matches if twin.place is not None and twin.state == RIGHT]
     spots = [trace.figure for trace in right if trace.kind == POINT]
     for given in matching.matches:
@@ -230,7 +253,7 @@ def unmatched_traces(matching: Matching, step: Step) -> Iterator[tuple[int, tupl
         else:
             off = min((float(distance_apart(LINE, value, np.array([complex(*point[:2])]))) for point in on),
                       default=math.inf)
-            near = off * mm < measures.CLAIM_SIGMAS * max(sheet.pencil.point, sheet.pencil.edge)
+            near = off * mm < measures.SURE_SIGMAS * max(sheet.pencil.point, sheet.pencil.edge)
         if near:
             yield place, value
 
@@ -251,6 +274,7 @@ class QuickScore:
     def __init__(self, matching: Matching, mistakes: Mapping[int, Mistake]):
         self.matching, self.mistakes = matching, mistakes
         self.own = [plain_value(value) for value in matching.own]
+        self._followers = dict[int, list[Step]]()
 
     def gain_of(self, mistake: Mistake) -> float:
         """Gain if a mistake was made; minus infinity if it is impossible."""
@@ -267,7 +291,7 @@ class QuickScore:
                                              KnownMarks(self.own[:arg], {at: wrong}))
             gain = gain + weight - measures.QUICK_SHARE * matching.matches[arg].weight
             seen_weight += weight
-        for step in matching.steps[at:]:
+        for step in self._steps_from(at):
             if dead.isdisjoint(step.args) and (step.index == at or not moved_steps.isdisjoint(step.args)):
                 value = wrong if step.index == at else value_of(step, values, self.mistakes.get(step.index))
                 if value is None:
@@ -286,6 +310,16 @@ class QuickScore:
             elif not dead.isdisjoint(step.args):
                 dead.add(step.index)
         return gain - sum(matching.matches[index].weight for index in dead)
+
+    def _steps_from(self, index: int) -> list[Step]:
+        """A step, and those that follow from it."""
+        if index not in self._followers:
+            following = {index}
+            for step in self.matching.steps[index + 1:]:
+                if not following.isdisjoint(step.args):
+                    following.add(step.index)
+            self._followers[index] = [self.matching.steps[one] for one in sorted(following)]
+        return self._followers[index]
 
     def _is_possible(self, step: Step, weight: float) -> bool:
         """Whether a step may be drawn so, by its visible ink: lines are visible, and in a picture all but the ends of
@@ -381,7 +415,7 @@ class RightWay:
         """By how much a stroke is turned from it, in right angles, 0 to 3; None where by none of them."""
         ratio = way / self.vector
         quarters = round(cmath.phase(ratio) / (math.pi / 2))
-        allowed = measures.SAME_DIRECTION_SINE + 3 * math.hypot(self.sigma, math.sqrt(2) * mark_error / abs(way))
+        allowed = measures.SAME_FRAME_SHARE + 3 * math.hypot(self.sigma, math.sqrt(2) * mark_error / abs(way))
         return quarters % 4 if abs(cmath.phase(ratio * 1j**-quarters)) < allowed else None
 
 
@@ -418,7 +452,7 @@ def _right_ways(matching: Matching, match: Match) -> Iterator[RightWay]:
     for basis in (matching.own, matching.mended):
         unit = sheet.frame(step).unit
         vector, sigma = sheet.laid_off(step, step.root, basis) or (0j, 0.0)
-        if abs(vector * unit) > measures.MIN_VECTOR_MM and abs(vector) > measures.SURE_VECTOR_SIGMAS * sigma:
+        if abs(vector * unit) > measures.MIN_VECTOR_MM and abs(vector) > measures.SURE_SIGMAS * sigma:
             yield RightWay(vector * unit, sigma / abs(vector))
 
 
@@ -446,12 +480,12 @@ def _stroke_ends(submission: Submission, start: complex) -> Iterator[complex]:
     for trace in submission.traces:
         if trace.kind == LINE:
             yield from (end for begin, end in permutations(complex(*spot) for spot in trace.spots[:2])
-                        if abs(begin - start) < measures.ARROW_TAIL_MM < abs(end - start))
+                        if abs(begin - start) < measures.SAME_STROKE_MM < abs(end - start))
 
 
 def _is_no_mark(matching: Matching, tip: complex) -> bool:
     """Whether an arrow ends in no mark that was found."""
-    return all(abs(tip - _spot(matching, match.step)) > measures.TWIN_MM for match in matching.matches
+    return all(abs(tip - _spot(matching, match.step)) > measures.SAME_STROKE_MM for match in matching.matches
                if match.place is not None and match.step.op.gives == POINT)
 
 

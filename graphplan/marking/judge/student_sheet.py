@@ -277,7 +277,7 @@ class StudentSheet:
             self.drawing.drawn.steps, self.drawing.values, self.plan_of_step, strict=True)
             if plan == home and step_on_plan.op.gives == POINT])
         across = math.hypot(float(np.ptp(spots.real)), float(np.ptp(spots.imag))) if len(spots) else 0.0
-        return min(max(measures.MIN_COARSE_ERROR_MM, measures.COARSE_ERROR_SHARE * across * self.mm(home)),
+        return min(max(measures.DRIFT_MM, measures.COARSE_ERROR_SHARE * across * self.mm(home)),
                    measures.MAX_COARSE_ERROR_MM)
 
     def value_of_trace(self, step: Step, expected: Any, spots: ReadSpots, steady: bool) -> Any:

@@ -92,19 +92,9 @@ class NumberVerdict:
 class FaultCount(NamedTuple):
     """Number of wrong and of missing marks, and of points whose letters a reading does not use."""
 
-    wrong: float
+    wrong: int
     missing: int
     strange_letters: int
-
-    def leaves_less_over(self, rival: FaultCount) -> bool:
-        """Whether less is missing, and fewer letters have no use by more than the wrong marks differ."""
-        return (self.missing < rival.missing
-                and rival.strange_letters - self.strange_letters > abs(self.wrong - rival.wrong))
-
-    def is_less_wrong(self, rival: FaultCount) -> bool:
-        """Whether less is wrong, and no more is missing or has letters without a use."""
-        return (self.wrong < rival.wrong and self.missing <= rival.missing
-                and self.strange_letters <= rival.strange_letters)
 
 
 @dataclass(frozen=True)

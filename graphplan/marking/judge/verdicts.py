@@ -107,7 +107,7 @@ class States:
             return None
         home = self.matching.sheet.plan_of_step[match.step.index]
         places, off = self.matching.evidence.nearby_traces(match.step.op.gives, home, plain_value(match.expected))
-        near = [place for far, place in sorted(zip(off, places, strict=True)) if far < measures.MISSING_NEAR_MM]
+        near = [place for far, place in sorted(zip(off, places, strict=True)) if far < measures.REACH_MM]
         free = [self.matching.traces[place] for place in near
                 if place not in self.matching.used and place not in self._further_strokes]
         return next(iter(unexplained_traces(free, self._explained_traces)), None)
@@ -122,7 +122,7 @@ class States:
                 places, off = self.matching.evidence.nearby_traces(
                     match.step.op.gives, sheet.plan_of_step[match.step.index],
                     plain_value(self.matching.own[match.step.index]))
-                further.update(place for place, far in zip(places, off, strict=True) if far < measures.TWIN_MM)
+                further.update(place for place, far in zip(places, off, strict=True) if far < measures.SAME_STROKE_MM)
         return further
 
     @property
@@ -235,7 +235,7 @@ def _closest_suspects(matching: Matching, step: Step, spots: Any) -> list[Suspec
                                         lambda index: [0.0] * len(hand.slips[index]))
         if mistaken_value is not None and all(map(math.isfinite, mistaken_value)):
             ranked.append((distance_apart(step.op.gives, mistaken_value, spots), len(ranked), suspect))
-    return [suspect for _, _, suspect in sorted(ranked)[:measures.MISTAKES_LOOKED_AT]]
+    return [suspect for _, _, suspect in sorted(ranked)[:measures.MANY_CANDIDATES]]
 
 
 def _suspects(matching: Matching, step: Step) -> Iterator[Suspect]:
@@ -245,7 +245,7 @@ def _suspects(matching: Matching, step: Step) -> Iterator[Suspect]:
         for mistake in possible_mistakes(matching.sheet.drawing.drawn, source, matching.sheet.plan_of_step,
                                          matching.sheet.link_points):
             yield Suspect(mistake, source,
-                          measures.STEP_BACK_SQUARES * far + measures.TABLE_ROW_SQUARES * order[mistake.kind])
+                          measures.CLEAR_SQUARES * far + measures.TABLE_ROW_SQUARES * order[mistake.kind])
 
 
 def _unseen_steps(matching: Matching, step: Step) -> list[Step]:

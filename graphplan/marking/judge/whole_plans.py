@@ -8,7 +8,7 @@ Two marks that bear each other's letters are one mistake too, and none about mec
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from graphplan.kernel.kinds import POINT
@@ -19,7 +19,6 @@ from graphplan.marking.judge.lettering import is_sure
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.student_sheet import Fit, plain_value
 from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, WRONG, Verdict
-from graphplan.marking.traces import Trace
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Phrase, Said, digits, phrase, said
 
@@ -128,7 +127,8 @@ def exchanged_pairs(matching: Matching) -> Iterator[Pair]:
 
 def are_surely_lettered(matching: Matching, pair: Pair) -> bool:
     """Whether the letters of two marks are certainly theirs: of marks close together either may be meant by both."""
-    return all(is_sure(matching.traces[matching.labels[step]]) for step in pair)
+    one, other = (matching.traces[matching.labels[step]] for step in pair)
+    return math.dist(one.spots[0], other.spots[0]) > 2 * measures.REACH_MM or (is_sure(one) and is_sure(other))
 
 
 def _bears_letters_of(matching: Matching, index: int, other: int) -> bool:
@@ -158,9 +158,3 @@ def with_exchanged(verdicts: Iterable[Verdict], pairs: Iterable[Pair], matching:
             yield replace(verdict, state=FOLLOWS)
         else:
             yield verdict
-
-
-def with_letters_exchanged(traces: Sequence[Trace], one: int, other: int) -> tuple[Trace, ...]:
-    """Traces of which two have each other's letters."""
-    labels = {one: traces[other].label, other: traces[one].label}
-    return tuple(replace(trace, label=labels.get(place, trace.label)) for place, trace in enumerate(traces))

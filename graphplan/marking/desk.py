@@ -26,7 +26,7 @@ from graphplan.kernel.kinds import POINT
 from graphplan.machines.subjects import pencil_errors
 from graphplan.marking.classroom.booklet import KeyRow, single_row
 from graphplan.marking.judge.numbers import ExpectedCycleNumber
-from graphplan.marking.judge.verdict import FOLLOWS, UNCLEAR, WRONG, Judgement
+from graphplan.marking.judge.verdict import Judgement
 from graphplan.mechanism.model import Presentation, Scene
 from graphplan.mechanism.units import KILOGRAMS, NEWTONS
 from graphplan.methods.kinds import CYCLE
@@ -176,7 +176,6 @@ class CycleResults:
 
 OWN_SUFFIXES, MAX_SCENE_CHARS = (".svg", ".dxf", ".ggb", ".pdf"), 200_000
 FORM_KEYS = "plan", "method", "inertia"  # of [sheet], that may be asked of a drawing
-MIN_PICTURE_MISTAKE_CHANCE = 0.95  # of a mistake in a picture: one that is less likely is to be looked at [measured]
 SCALE_KEYS = "k_s", "k_v", "k_a", "k_F", "multiples"  # of [sheet], that a task gives, or leaves to who draws
 
 
@@ -343,24 +342,7 @@ class Desk:
         work = self.on_sheet.drawing, self.on_sheet.composition, submission, self.on_sheet.pencil
         judgement_of_pose = (judge(*work) if self.keys.get("method")
                              else judge_any_design(*work, self.keys.get("plan") or ""))
-        if submission.page:
-            judgement_of_pose = without_doubtful_mistakes(judgement_of_pose)
         return with_cycle_numbers(judgement_of_pose, self._cycle.expected_result)
-
-
-def without_doubtful_mistakes(judgement: Judgement) -> Judgement:
-    """The judgement of a picture in which all that is wrong, or follows from it, is to be looked at, where the first
-    mistake is not sure: less likely than `MIN_PICTURE_MISTAKE_CHANCE`, or at a point without letters, which nobody
-    dots."""
-    first = judgement.first_wrong
-    if first is None:
-        return judgement
-    step = judgement.drawing.drawn.steps[first.at_fault]
-    if first.confidence >= MIN_PICTURE_MISTAKE_CHANCE and (step.name or step.op.gives != POINT):
-        return judgement
-    return replace(judgement, verdicts=tuple(
-        replace(verdict, state=UNCLEAR, mistake=None, kind="", guilty=None) if verdict.state in (WRONG, FOLLOWS)
-        else verdict for verdict in judgement.verdicts))
 
 
 def _mechanism(scene: Scene) -> Scene:

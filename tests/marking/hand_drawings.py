@@ -35,6 +35,7 @@ from drawing_tasks import FAR_MM, MAKERS
 from face import ran
 
 AUXILIARY = re.compile(r"n_\d|k_A|c|f|R|Q")  # marks of which no result is read
+RESULT_END = re.compile(r"[abdem]'?|v_[abdem]")  # marks in which vectors end that are asked for
 PANELS = {"mechanism": "mechanism", "second": "N-plan"}
 Forms = Callable[[Places], Callable[[Board, str, complex], None]]
 
@@ -178,6 +179,19 @@ def results_alone(drawing: Drawing) -> Drawing:
         key[1])}
     kept = [stroke for stroke in drawing.board.strokes if set(stroke) <= set(marks.values())]
     return replace(drawing, board=replace(drawing.board, marks=marks, strokes=kept, arcs=[]))
+
+
+def without_result(drawing: Drawing, seed: int) -> Drawing:
+    """The same without the mark of one vector that is asked for, and all strokes that end there."""
+    ends = [key for key in drawing.board.marks if RESULT_END.fullmatch(key[1]) and key[0] != "mechanism"] or [
+        key for key in drawing.board.marks if key[1].startswith("v_")]
+    if not ends:
+        raise LookupError("no vector")
+    key = random.Random(f"removed {seed}").choice(ends)
+    board, at = drawing.board, drawing.board.marks[key]
+    marks = {other: z for other, z in board.marks.items() if other != key}
+    kept, arrows = ([stroke for stroke in strokes if at not in stroke] for strokes in (board.strokes, board.arrows))
+    return replace(drawing, board=replace(board, marks=marks, strokes=kept, arrows=arrows))
 
 
 # ---- other forms -----------------------------------------------------------------------------------------------------

@@ -228,13 +228,15 @@ def _join_text(whole: Lettering, end: float, word: Lettering) -> str | None:
 def follow_leaders(words: Sequence[Lettering], traces: Sequence[Trace], leaders: Sequence[Trace] | None
         ) -> tuple[list[Lettering], list[Trace]]:
     """The words that name marks, with the ends of their leaders, and the traces without these. Some files know their
-    `leaders`; in others no leader starts at a number or a Greek letter, as those stand where lines end."""
+    `leaders`; in others none starts at a number or a Greek letter, as those stand where lines end, nor at letters that
+    stand at a point of their own."""
     words = [word for word in words if word.names]
     if leaders is not None:
         words = words[:measures.MAX_WORDS]
         return _follow_aimed_leaders(words, _join_leaders(leaders)[:measures.MAX_WORDS]), list(traces)
     ends, taken = dict[int, tuple[float, Spot]](), set[Trace]()
-    able = [place for place, word in enumerate(words) if not can_name_line(word.names[0])]
+    at_points = _words_at_points(words, traces)
+    able = [place for place, word in enumerate(words) if not (place in at_points or can_name_line(word.names[0]))]
     boxes = STRtree([words[place].box for place in able])
     for stroke, near, mark in _likely_leaders(traces) if able else ():
         nearest = int(boxes.nearest(near))
@@ -244,6 +246,16 @@ def follow_leaders(words: Sequence[Lettering], traces: Sequence[Trace], leaders:
             taken.add(stroke)
     led_words = [replace(word, leads=ends[place][1]) if place in ends else word for place, word in enumerate(words)]
     return led_words, [trace for trace in traces if trace not in taken]
+
+
+def _words_at_points(words: Sequence[Lettering], traces: Sequence[Trace]) -> set[int]:
+    """The words, by their places, that stand beside a point to which no other word is nearer."""
+    boxes, at_points = STRtree([word.box for word in words]), set[int]()
+    for point in (trace.figure for trace in traces if trace.kind == POINT and words):
+        nearest = int(boxes.nearest(point))
+        if boxes.geometries[nearest].distance(point) < measures.LEADER_GAP_SIZES * words[nearest].size:
+            at_points.add(nearest)
+    return at_points
 
 
 def _join_leaders(leaders: Iterable[Trace]) -> list[Trace]:

@@ -125,6 +125,8 @@ def opinion(judgement: Judgement) -> Said:
         return wrong_number(judgement, wrong[0])
     if not (judgement.has_drawn or judgement.numbers):
         return said("Nothing that was asked for is recognized: look at the sheet.")
+    if judgement.counts[UNCLEAR]:
+        return said("No step is surely wrong; some are to be looked at.")
     return said("No step is wrong.")
 
 

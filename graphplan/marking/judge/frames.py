@@ -93,7 +93,7 @@ def to_mm(drawing: Construction, composition: Composition, submission: Submissio
         return submission, ()
     spots = [spot for trace in submission.traces for spot in trace.spots]
     extent = max((_extent(coordinates) for coordinates in zip(*spots, strict=True)), default=0.0)
-    sheet = max(composition.arrangement.width, composition.arrangement.height)
+    least, sheet = sorted((composition.arrangement.width, composition.arrangement.height))
     # as marks and letters are seen
     rough = 1.0 if not extent or sheet / measures.SIZE_RATIO < extent < sheet * measures.SIZE_RATIO else sheet / extent
     frame = Letters(drawing, composition, scale_submission(submission, rough), pencil,
@@ -110,7 +110,7 @@ def to_mm(drawing: Construction, composition: Composition, submission: Submissio
     chance_cost = measures.ODD_SCALE_COST if _is_round_scale(scale * measures.DRAWING_UNITS[best][0], task) else 0.0
     is_own = against[best] > measures.OWN_UNIT_COST + submission.millimetres + chance_cost  # a round scale is no chance
     if is_own and abs(math.log(scale / task)) > math.log(measures.SIZE_RATIO):
-        mm = min(task / scale, rough)  # no larger than the task's sheet, so that its errors are those of a pencil
+        mm = min(task / scale, rough * least / sheet)  # no larger than the task: its errors are those of a pencil
         return (replace(scale_submission(submission, mm), millimetres=-math.inf),
                 (said("drawn in a unit of its own (1 unit = {0} mm)", digits(mm, 3)),))
     if is_own or best == "mm":

@@ -56,7 +56,7 @@ def judge(drawing: Construction, composition: Composition, submission: Submissio
     refuse_exact_pencil(pencil)
     submission, unit = to_mm(drawing, composition, submission, pencil)
     return Judge(SheetReading(drawing, composition, submission, unit),
-                 assumed_pencil(pencil, submission)).with_seen_pencil.judgement
+                 assumed_pencil(pencil, submission)).with_seen_pencil.told
 
 
 def refuse_exact_pencil(pencil: Pencil) -> None:
@@ -153,7 +153,13 @@ class Judge:
             [step.op for step in self.drawing.drawn.steps] == [
                 step.op for step in self.reading.task.plans.drawing.drawn.steps],
             drawn_right=results_drawn_right(matching, true,
-                                            {plan.panel for plan in self.deviating_plans if plan.kind}))
+                                            {plan.panel for plan in self.deviating_plans if plan.kind},
+                                            {*chain.from_iterable(self._exchanged)}))
+
+    @property
+    def told(self) -> Judgement:
+        """The judgement as it is told: of a picture, nothing that is not sure is called wrong."""
+        return self.judgement.without_doubtful_mistakes if self.submission.page else self.judgement
 
     @property
     def deviating_plans(self) -> list[WholePlan]:
@@ -368,7 +374,7 @@ def judge_any_design(drawing: Construction, composition: Composition, submission
         for rival in sorted(_judges(others.readings(), first.hand), key=lambda rival: -rival.first_look):
             if rival.first_look + measures.CLOSER_LOOK_ODDS > best.weight and rival.explains_more(best):
                 best = rival
-    return (best if best is first else best.with_seen_pencil).judgement
+    return (best if best is first else best.with_seen_pencil).told
 
 
 def _judges(readings: Iterable[SheetReading], hand: SeenPencil) -> Iterator[Judge]:
@@ -410,11 +416,11 @@ def judge_any_drawing(drawings: Callable[[Iterable[str], Mapping[str, complex]],
                 best = rival
                 places.update(_lettered_places(best))
             if not best.has_faults:
-                return best.judgement
+                return best.told
     if best is None:
         assert refusal is not None
         raise refusal
-    return best.judgement
+    return best.told
 
 
 def _lettered_places(judge: Judge) -> dict[str, complex]:

@@ -157,6 +157,7 @@ TABLE_ROW_SQUARES = 0.5  # sum of squares: what each place down the table adds [
 
 # ---- verdicts, numbers and the score --------------------------------------------------------------------------------
 
+MIN_PICTURE_MISTAKE_CHANCE = 0.95  # of a mistake in a picture: one that is less likely is to be looked at [tuned]
 MAX_SURE_ODDS = 20.0  # beyond which nothing is surer [defined]
 RESULT_SIGMAS = 3.0  # standard deviations of what the pencil makes of a result, within which it is right [defined]
 RESULT_SHARE = 0.03  # of a result that is no place: within which it is right in any case [defined]

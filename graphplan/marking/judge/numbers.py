@@ -94,16 +94,18 @@ def true_results(matching: Matching) -> dict[Key, TrueResult]:
     return results
 
 
-def results_drawn_right(matching: Matching, true: Mapping[Key, TrueResult], deviating: Collection[str]
-                        ) -> frozenset[Key]:
+def results_drawn_right(matching: Matching, true: Mapping[Key, TrueResult], deviating: Collection[str],
+                        misnamed: Collection[int]) -> frozenset[Key]:
     """The results that the student's own marks show as they truly are, as far as those were read; none of a deviating
-    plan, which shows them at another scale or in another direction."""
+    plan, which shows them at another scale or in another direction, nor of misnamed marks, by their steps."""
     right, sheet = set[Key](), matching.sheet
     for reading, _, value in _own_readings(matching):
-        homes = {sheet.plan_of_step[sheet.drawing.drawn.wanted[position]] for position in reading.marks}
+        marks = {sheet.drawing.drawn.wanted[position] for position in reading.marks}
+        homes = {sheet.plan_of_step[mark] for mark in marks}
         error = math.sqrt(float(np.sum(variances(sheet.domain, value))))
         key, drawn = (reading.kind, reading.of), [float(plain_value([part])[0]) for part in components(value)]
-        if homes.isdisjoint(deviating) and true[key].has(drawn, error if math.isfinite(error) else 0.0):
+        is_shown = homes.isdisjoint(deviating) and marks.isdisjoint(misnamed)
+        if is_shown and true[key].has(drawn, error if math.isfinite(error) else 0.0):
             right.add(key)
     return frozenset(right)
 

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from graphplan.design.hand import SeenPencil
 from graphplan.kernel.kinds import POINT, Movement
+from graphplan.marking.judge import measures
 from graphplan.marking.traces import Frames, StudentNumber, Trace, mark_name
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import CYCLE, ResultKind
@@ -140,6 +141,20 @@ class Judgement:
         numbers = tuple(replace(number, state=results.get((number.number.kind, number.number.of), number.state))
                         for number in self.numbers)
         return replace(self, verdicts=verdicts, numbers=numbers, told=results)
+
+    @property
+    def without_doubtful_mistakes(self) -> Judgement:
+        """The judgement in which all that is wrong, or follows from it, is to be looked at, where the first mistake is
+        not sure: less likely than in a picture it has to be, or at a point without letters, which nobody dots."""
+        first = self.first_wrong
+        if first is None:
+            return self
+        step = self.drawing.drawn.steps[first.at_fault]
+        if first.confidence >= measures.MIN_PICTURE_MISTAKE_CHANCE and (step.name or step.op.gives != POINT):
+            return self
+        return replace(self, verdicts=tuple(
+            replace(verdict, state=UNCLEAR, mistake=None, kind="", guilty=None) if verdict.state in (WRONG, FOLLOWS)
+            else verdict for verdict in self.verdicts))
 
     @property
     def counting_verdicts(self) -> list[Verdict]:

@@ -52,7 +52,7 @@ def deviating_plans(reading: SheetReading, panels: Iterable[Panel], fits: Mappin
             yield WholePlan(panel, TURNED_PLAN, text, unit)
         elif ratio != 1.0:
             text = said("all of the {0} is drawn {1} times as large as on the task's sheet", panel.words,
-                        digits(ratio, 2))
+                        digits(ratio, 2 if round(ratio, 1) != 1.0 else 3))
             yield WholePlan(panel, RESCALED_PLAN if has_given_scale(reading, panel) else "", text, unit)
 
 

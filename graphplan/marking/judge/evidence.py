@@ -111,6 +111,11 @@ class Evidence:
                                   and _is_same_ink(trace, self.traces[rival])}
         return self._twins[place]
 
+    def strokes_upon(self, kind: str, panel: str, value: Sequence[float]) -> set[int]:
+        """The strokes that lie upon a line or a circle: one is drawn in parts, or goes on beyond its marks."""
+        places, off = self.nearby_traces(kind, panel, value)
+        return {place for place, far in zip(places, off, strict=True) if far < measures.SAME_STROKE_MM}
+
     def neighbours(self, place: int, panel: str, value: Sequence[float]) -> list[int]:
         """The other traces that are so near to what one is that it could be they."""
         places, off = self.nearby_traces(self.traces[place].kind, panel, value)

@@ -269,18 +269,8 @@ class Matching:
                                                    self.sheet.errors(step.index))
         mended_value = candidates[0][0] if candidates else mistaken_value
         place = self._find_drawn(step, mistaken_value, self.own)
-        if place is None:
-            missed = self._missed_weight(mistaken_value)
-            if self.evidence.picture and not step.name:  # nobody dots what has no letters, wherever it is
-                missed = measures.ABSENT_ODDS.get(step.op.gives, 0.0)
-            weight = missed + measures.UNSEEN_MISTAKE_ODDS
-            unclear = step.op.gives == POINT and self.sheet.residual(
-                step, mended_value, [mistaken_value], self.own).fits(self.chance)
-            lost = self.evidence.picture and not lays_off_vector(step.op)  # strokes are seen, dots may be lost in them
-            if unclear or lost or not self.dead.isdisjoint(step.args):
-                weight = -math.inf
-            return self._append(Match(step, WRONG, mended_value, mistake=mistake, weight=weight), mistaken_value,
-                                mended_value)
+        if place is None or self._is_spread_of_strokes(step, place):
+            return self._take_unseen_mistake(mistake, mistaken_value, mended_value)
         spots = self.sheet.spots(step.index, self.traces[place])
         off = self.sheet.residual(step, mended_value, spots, self.own)
         seen_value = self.sheet.value_of_trace(step, mistaken_value, spots, steady=not self.traces[place].blur)
@@ -290,6 +280,34 @@ class Matching:
         if off.fits(self.chance):
             weight = -math.inf
         return self._append(Match(step, WRONG, mended_value, place, off, mistake, weight), seen_value, mended_value)
+
+    def _take_unseen_mistake(self, mistake: Mistake, mistaken_value: Any, mended_value: Any) -> Matching:
+        """Take a mistake whose mark is not to be seen for what was done at the next step."""
+        step, is_picture = self.next_step, self.evidence.picture
+        missed = self._missed_weight(mistaken_value)
+        if is_picture and not step.name:  # nobody dots what has no letters, wherever it is
+            missed = measures.ABSENT_ODDS.get(step.op.gives, 0.0)
+        unclear = step.op.gives == POINT and self.sheet.residual(
+            step, mended_value, [mistaken_value], self.own).fits(self.chance)
+        lost = is_picture and not lays_off_vector(step.op)  # strokes are seen, dots may be lost in them
+        is_idle = unclear or lost or not self.dead.isdisjoint(step.args)
+        weight = -math.inf if is_idle else missed + measures.UNSEEN_MISTAKE_ODDS
+        return self._append(Match(step, WRONG, mended_value, mistake=mistake, weight=weight), mistaken_value,
+                            mended_value)
+
+    def is_at_beginning(self, step: Step, spot: Sequence[float]) -> bool:
+        """Whether a spot is so near to where the plan of a step begins that no vector ends there."""
+        home = self.sheet.plan_of_step[step.index]
+        return any(math.dist(spot, plain_value(begun.expected)) * self.sheet.mm(home) < measures.MIN_VECTOR_MM
+                   for begun in self.matches if begun.step.op.movement is Movement.BEGUN
+                   and self.sheet.plan_of_step[begun.step.index] == home)
+
+    def _is_spread_of_strokes(self, step: Step, place: int) -> bool:
+        """Whether what looks like a dot of a picture is where strokes spread from the beginning of their plan."""
+        if not self.evidence.picture or step.op.gives != POINT:
+            return False
+        spot, = self.sheet.spots(step.index, self.traces[place])
+        return self.is_at_beginning(step, plain_value(spot))
 
     def _weigh_trace(self, place: int, residual: Residual | None, seen: Any) -> float:
         """Weight of a trace for this matching; a wrong one by its distance."""
@@ -339,6 +357,9 @@ class Matching:
         self.erred = self.erred or match.state == WRONG
         if match.place is not None:
             self.used |= {match.place} | self.evidence.twins(match.place)
+            if match.step.op.gives == LINE and match.state != WRONG and not self.evidence.picture:
+                home = self.sheet.plan_of_step[match.step.index]
+                self.used |= self.evidence.strokes_upon(LINE, home, plain_value(own))
         self.weight, self._now, self._off = self.weight + match.sharp_weight, None, {}
         return self
 

@@ -18,7 +18,7 @@ import numpy as np
 from shapely import LineString, Point
 
 from graphplan.errors import Undrawable
-from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import KnownMarks, ends_at, unexplained_traces
@@ -249,23 +249,13 @@ def unmatched_traces(matching: Matching, step: Step) -> Iterator[tuple[int, tupl
         value = plain_value(sheet.value_of_trace(step, matching.own[step.index], spots, steady=True))
         if kind == POINT:
             near = math.dist(value, plain_value(matching.own[step.index])) * mm < measures.MAX_ASTRAY_MM and not (
-                matching.evidence.picture and _is_at_beginning(matching, step, value))
+                matching.evidence.picture and matching.is_at_beginning(step, value))
         else:
             off = min((float(distance_apart(LINE, value, np.array([complex(*point[:2])]))) for point in on),
                       default=math.inf)
             near = off * mm < measures.SURE_SIGMAS * max(sheet.pencil.point, sheet.pencil.edge)
         if near:
             yield place, value
-
-
-def _is_at_beginning(matching: Matching, step: Step, spot: Value) -> bool:
-    """Whether a spot is so near to where the plan of a step begins that no vector ends there: what looks like a dot is
-    where strokes spread."""
-    sheet = matching.sheet
-    home = sheet.plan_of_step[step.index]
-    return any(math.dist(spot, plain_value(begun.expected)) * sheet.mm(home) < measures.MIN_VECTOR_MM
-               for begun in matching.matches if begun.step.op.movement is Movement.BEGUN
-               and sheet.plan_of_step[begun.step.index] == home)
 
 
 class QuickScore:

@@ -119,10 +119,9 @@ class States:
         sheet, further = self.matching.sheet, set[int]()
         for match in self.matching.matches:
             if match.place is not None and match.state in EARNED and match.step.op.gives != POINT:
-                places, off = self.matching.evidence.nearby_traces(
+                further |= self.matching.evidence.strokes_upon(
                     match.step.op.gives, sheet.plan_of_step[match.step.index],
                     plain_value(self.matching.own[match.step.index]))
-                further.update(place for place, far in zip(places, off, strict=True) if far < measures.SAME_STROKE_MM)
         return further
 
     @property

@@ -105,7 +105,7 @@ class OtherDesigns:
 
     def _readings_at_points(self) -> Iterator[SheetReading]:
         """Yield designs with velocities of another length, turned the other way, or true at their points, where several
-        of them agree on that, or one is a quarter turn off; the likeliest first."""
+        of them agree on that, or one alone is so by a right angle; the likeliest first."""
         if not self.task.drawing.turned or self.labelled.page:
             return
         votes = []
@@ -117,12 +117,12 @@ class OtherDesigns:
                 vector = complex(*trace.spots[0]) - start
                 if abs(vector) > measures.MIN_VECTOR_MM:
                     votes.append((vector / task_vector, math.hypot(2 * self.pencil.point, trace.blur) / abs(vector)))
-        for count, ratio, sigma in agreed_units(votes):
-            quarters = round(cmath.phase(ratio) / (math.pi / 2)) % 4
-            off = abs(cmath.phase(ratio * (-1j) ** quarters))
+        groups = [group for group in agreed_units(votes) if _is_turned_squarely(*group)]
+        for count, ratio, sigma in groups:
+            quarters = _quarters(ratio)
             same = abs(1 / abs(ratio) - 1) < measures.SURE_SIGMAS * sigma
-            if (count > 1 or off < measures.SURE_SIGMAS * sigma) and off < measures.MAX_TURN_ERROR_RAD and (
-                    quarters in SENSES and not (same and quarters == 0)):  # a quarter on, true ones would be reversed
+            is_other = quarters in SENSES and not (same and quarters == 0)  # a quarter on, true ones would be reversed
+            if is_other and not count == 1 < groups[0][0]:
                 yield from self._turned_readings(quarters, Fraction(1) if same else Fraction(abs(ratio)))
 
     @cached_property
@@ -232,6 +232,17 @@ class OtherDesigns:
         drawing = self.task.drawing
         plan = Plan(drawing.scene, drawing.design.method)
         return draw(plan, plan.way_by(drawing.design.ways), replace(drawing.design, **changes))
+
+
+def _quarters(ratio: complex) -> int:
+    """By how many right angles, the nearest, something is turned."""
+    return round(cmath.phase(ratio) / (math.pi / 2)) % 4
+
+
+def _is_turned_squarely(count: int, ratio: complex, sigma: float) -> bool:
+    """Whether so many vectors are turned by a right angle as near as several are drawn, or as one alone is told."""
+    off = abs(cmath.phase(ratio * (-1j) ** _quarters(ratio)))
+    return off < (measures.MAX_TURN_ERROR_RAD if count > 1 else measures.SURE_SIGMAS * sigma)
 
 
 def find_orphans(drawing: Construction, submission: Submission) -> list[int]:

@@ -8,6 +8,7 @@ and one that is not to be seen at all is implied there; what is rather not there
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -159,14 +160,15 @@ class States:
     @cached_property
     def unreadable_marks(self) -> set[int]:
         """The marks of results that are asked for, and cannot be read off where they are not marked: they are missing,
-        whatever rests on them. Those need no mark that lie on strokes; in a picture, those at which strokes cross."""
+        whatever rests on them. Those need no mark at which strokes cross."""
         sheet, matches = self.matching.sheet, self.matching.matches
         if self.matching.evidence.picture:
             asked = self.asked - self.answered - set(sheet.hidden)
             return {index for index in asked if matches[index].place is None
                     and math.isinf(self._own_odds(matches[index]))}
         strokes = [match.step.index for match in matches if match.place is not None and match.state in EARNED]
-        legible = {mark for stroke in strokes for mark in sheet.marks_on.get(stroke, ())}
+        crossed = Counter(mark for stroke in strokes for mark in sheet.marks_on.get(stroke, ()))
+        legible = {mark for mark, count in crossed.items() if count > 1}
         seen_steps = {match.step.index for match in matches if match.place is not None}
         return self.asked - self.answered - legible - seen_steps - set(sheet.hidden)
 

@@ -145,12 +145,15 @@ class Judgement:
     @property
     def without_doubtful_mistakes(self) -> Judgement:
         """The judgement in which all that is wrong, or follows from it, is to be looked at, where the first mistake is
-        not sure: less likely than in a picture it has to be, or at a point without letters, which nobody dots."""
+        not sure: less likely than in a picture it has to be, hardly beyond what is allowed, or at a point without
+        letters, which nobody dots."""
         first = self.first_wrong
         if first is None:
             return self
         step = self.drawing.drawn.steps[first.at_fault]
-        if first.confidence >= measures.MIN_PICTURE_MISTAKE_CHANCE and (step.name or step.op.gives != POINT):
+        is_small = first.off < measures.MAX_TOLERANCES_OFF * first.tolerance
+        is_dotted = bool(step.name) or step.op.gives != POINT
+        if first.confidence >= measures.MIN_PICTURE_MISTAKE_CHANCE and is_dotted and not is_small:
             return self
         return replace(self, verdicts=tuple(
             replace(verdict, state=UNCLEAR, mistake=None, kind="", guilty=None) if verdict.state in (WRONG, FOLLOWS)

@@ -152,7 +152,8 @@ class States:
         if match.step.index in self.answered:
             return measures.MAX_SURE_ODDS
         strokes = [self.matching.matches[arg] for arg in match.step.args]
-        stroke_weights = [stroke.weight for stroke in strokes if stroke.place is not None and stroke.state in EARNED]
+        stroke_weights = [stroke.weight for stroke in strokes
+                          if stroke.place is not None and stroke.state in EARNED and stroke.weight > 0.0]
         crossed = match.step.op.crossing and match.state != WRONG and stroke_weights and (
             len(stroke_weights) == len(strokes) or self._is_hidden(match))
         return min(stroke_weights) if crossed else -math.inf

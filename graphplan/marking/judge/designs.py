@@ -269,6 +269,8 @@ FROM_POINTS: Mapping[int, Said] = {  # by the quarter turns from the true veloci
     0: said("true velocities at their points"), 1: said("orthogonal velocities at their points"),
     3: said("velocities turned clockwise"),
 }
+
+
 def call_ends(drawing: Construction, letters: Mapping[str, str]) -> Construction:
     """A polar drawing with the ends of velocities called by these letters, by their points, but for letters that it has
     for other marks."""

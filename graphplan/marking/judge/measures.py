@@ -93,6 +93,7 @@ MAX_OWN_FRAMES = 3  # count: plans in frames of their own that are tried in thos
 MAX_RIVAL_FRAMES = 8  # count: other frames that are tried for a plan [cost]
 MAX_ANCHORS = 400  # count: unlabelled spots in which a mechanism is sought [cost]
 AGREED_SIGMAS = 2 * SURE_SIGMAS  # within which marks agree on where a plan lies: two of them may err [defined]
+CANDIDATES = 6  # count: things, pairs, places or spots that are tried for one, the nearest or likeliest first [cost]
 MANY_CANDIDATES = 24  # count: the same of strokes, heaps of votes and mistakes [cost]
 CHANCE_MECHANISMS = 0.01  # count: mechanisms that may be seen in spots that are not theirs [defined]
 MAX_FRAME_BLUR_MM = 2.0  # marks without dots that are no surer lay no frame [tuned]
@@ -128,12 +129,10 @@ ARC_MM = 4.0  # of an arc, to both sides of its mark [practice]
 
 # ---- matching steps with marks --------------------------------------------------------------------------------------
 
-CANDIDATES = 6  # count: things, pairs, places or spots that are tried for one, the nearest or likeliest first [cost]
 SEARCH_SIGMAS = 25.0  # of a point, within which a picture is searched [tuned]
 MAX_TOLERANCES_OFF = 2.0  # tolerances off: nothing that is farther fits [tuned]
 CHANCE_CROSSING_MM = 8.0  # from a mark, beside whose letter other strokes cross [practice]
 MAX_ASTRAY_MM = 60.0  # no mark is sought further off [tuned]
-
 DIRECTION_SHARE = 0.01  # of its length: how far a line of a wrong direction is off that at its end [practice]
 
 # ---- mistakes -------------------------------------------------------------------------------------------------------

@@ -117,9 +117,10 @@ class Judged:
         for keys in named:
             true, own = ([board.marks.get(key) for key in keys] for board in (self.twin.board, self.drawing.board))
             if None not in true:
+                right = true[0] - true[1]
                 if own[0] is None:
-                    return True
-                right, drawn = true[0] - true[1], own[0] - (own[1] or 0j)
+                    return bool(abs(right) > PLAIN_MM)
+                drawn = own[0] - (own[1] or 0j)
                 return result["verdict"] == "right" and abs(drawn - right) > max(PLAIN_MM, PLAIN_SHARE * abs(right))
         return False
 

@@ -108,7 +108,7 @@ class OtherDesigns:
         of them agree on that, or one alone is so by a right angle; the likeliest first."""
         if not self.task.drawing.turned or self.labelled.page:
             return
-        votes = []
+        votes = dict[str, tuple[complex, float]]()
         for point, vector_on_plan in self._turned_velocities.items():
             place = self._find_mark(point)
             task_vector = vector_on_plan * self.frame.unit
@@ -116,13 +116,16 @@ class OtherDesigns:
                 trace, start = self.labelled.traces[place], self.frame.to_sheet(self._given_point(point))
                 vector = complex(*trace.spots[0]) - start
                 if abs(vector) > measures.MIN_VECTOR_MM:
-                    votes.append((vector / task_vector, math.hypot(2 * self.pencil.point, trace.blur) / abs(vector)))
-        groups = [group for group in agreed_units(votes) if _is_turned_squarely(*group)]
+                    votes[point] = vector / task_vector, math.hypot(2 * self.pencil.point, trace.blur) / abs(vector)
+        groups = [group for group in agreed_units([*votes.values()]) if _is_turned_squarely(*group)]
+        of_cranks = [votes[point][0] for point, _ in self._crank_velocities() if point in votes]
         for count, ratio, sigma in groups:
             quarters = _quarters(ratio)
             same = abs(1 / abs(ratio) - 1) < measures.SURE_SIGMAS * sigma
             is_other = quarters in SENSES and not (same and quarters == 0)  # a quarter on, true ones would be reversed
-            if is_other and not count == 1 < groups[0][0]:
+            # of those that stand alone a crank's tells: what is wrong at its follower is alike at all that follow
+            tells = count > 1 or groups[0][0] == 1 or any(abs(crank / ratio - 1) < sigma for crank in of_cranks)
+            if is_other and tells:
                 yield from self._turned_readings(quarters, Fraction(1) if same else Fraction(abs(ratio)))
 
     @cached_property

@@ -161,7 +161,7 @@ class States:
     @cached_property
     def unreadable_marks(self) -> set[int]:
         """The marks of results that are asked for, and cannot be read off where they are not marked: they are missing,
-        whatever rests on them. Those need no mark at which strokes cross."""
+        whatever rests on them. Those need no mark at which loci cross, or a vector meets one."""
         sheet, matches = self.matching.sheet, self.matching.matches
         if self.matching.evidence.picture:
             asked = self.asked - self.answered - set(sheet.hidden)
@@ -169,7 +169,7 @@ class States:
                     and math.isinf(self._own_odds(matches[index]))}
         strokes = [match.step.index for match in matches if match.place is not None and match.state in EARNED]
         crossed = Counter(mark for stroke in strokes for mark in sheet.marks_on.get(stroke, ()))
-        legible = {mark for mark, count in crossed.items() if count > 1}
+        legible = {mark for mark, count in crossed.items() if count > 1 or not matches[mark].step.op.crossing}
         seen_steps = {match.step.index for match in matches if match.place is not None}
         return self.asked - self.answered - legible - seen_steps - set(sheet.hidden)
 

@@ -204,7 +204,7 @@ class Kind:
         for number in count():
             work = self.names[number % len(self.names)], first_seed + number // len(self.names)
             try:
-                twin = self.put(*work, RIGHT, folder)[0]
+                twin = None if state == RIGHT else self.put(*work, RIGHT, folder)[0]
                 yield judged(*self.put(*work, state, folder), twin=twin)
             except (LookupError, Unfit):  # no task of this seed can be set, or drawn so
                 continue

@@ -7,7 +7,6 @@ letters how they are drawn: where several differ from the task's by the same tur
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -24,7 +23,15 @@ from graphplan.errors import GraphplanError
 from graphplan.kernel.kinds import LINE, POINT, Sizing
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.frames import Pair, SheetReading, agreed_units, best_fit, mirror_submission, to_mm
+from graphplan.marking.judge.frames import (
+    Pair,
+    SheetReading,
+    agreed_units,
+    best_fit,
+    mirror_submission,
+    quarter_turns,
+    to_mm,
+)
 from graphplan.marking.judge.lettering import name_marks
 from graphplan.marking.judge.student_sheet import Fit
 from graphplan.marking.tolerances import VECTOR_END_RATIO
@@ -104,11 +111,32 @@ class OtherDesigns:
     # ---- velocities drawn from their points ------------------------------------------------------------------------
 
     def _readings_at_points(self) -> Iterator[SheetReading]:
-        """Yield designs with velocities of another length, turned the other way, or true at their points, where several
-        of them agree on that, or one alone is so by a right angle; the likeliest first."""
-        if not self.task.drawing.turned or self.labelled.page:
-            return
-        votes = dict[str, tuple[complex, float]]()
+        """Yield designs with velocities of another length, turned the other way, or true at their points."""
+        if self.task.drawing.turned and not self.labelled.page:
+            for quarters, factor in self._agreed_turns():
+                yield from self._turned_readings(quarters, factor)
+
+    def _agreed_turns(self) -> Iterator[tuple[int, Fraction]]:
+        """Yield the right angles and factors by which velocities differ from those of the task, where several of them
+        agree, or one alone is turned by a right angle; the likeliest first."""
+        ratios = self._velocity_ratios()
+        of_cranks = [ratios[point][0] for point, _ in self._crank_velocities() if point in ratios]
+        groups = []
+        for count, ratio, sigma in agreed_units([*ratios.values()]):
+            sure = measures.SURE_SIGMAS * sigma
+            quarters = quarter_turns(ratio, min(measures.MAX_TURN_ERROR_RAD, math.inf if count > 1 else sure))
+            if quarters is not None:
+                groups.append((count, ratio, sigma, quarters))
+        for count, ratio, sigma, quarters in groups:
+            is_same = abs(1 / abs(ratio) - 1) < measures.SURE_SIGMAS * sigma
+            # a mistake at a follower of a crank shows alike at all that follow: alone, only a crank's vector counts
+            is_alone = count == 1 < groups[0][0] and not any(abs(crank / ratio - 1) < sigma for crank in of_cranks)
+            if quarters in SENSES and not is_alone and not (is_same and quarters == 0):  # others would be reversed
+                yield quarters, Fraction(1) if is_same else Fraction(abs(ratio))
+
+    def _velocity_ratios(self) -> dict[str, tuple[complex, float]]:
+        """Ratios of the velocities as drawn to those of the task, by their points, each with its deviation."""
+        ratios = {}
         for point, vector_on_plan in self._turned_velocities.items():
             place = self._find_mark(point)
             task_vector = vector_on_plan * self.frame.unit
@@ -116,17 +144,8 @@ class OtherDesigns:
                 trace, start = self.labelled.traces[place], self.frame.to_sheet(self._given_point(point))
                 vector = complex(*trace.spots[0]) - start
                 if abs(vector) > measures.MIN_VECTOR_MM:
-                    votes[point] = vector / task_vector, math.hypot(2 * self.pencil.point, trace.blur) / abs(vector)
-        groups = [group for group in agreed_units([*votes.values()]) if _is_turned_squarely(*group)]
-        of_cranks = [votes[point][0] for point, _ in self._crank_velocities() if point in votes]
-        for count, ratio, sigma in groups:
-            quarters = _quarters(ratio)
-            same = abs(1 / abs(ratio) - 1) < measures.SURE_SIGMAS * sigma
-            is_other = quarters in SENSES and not (same and quarters == 0)  # a quarter on, true ones would be reversed
-            # of those that stand alone a crank's tells: what is wrong at its follower is alike at all that follow
-            tells = count > 1 or groups[0][0] == 1 or any(abs(crank / ratio - 1) < sigma for crank in of_cranks)
-            if is_other and tells:
-                yield from self._turned_readings(quarters, Fraction(1) if same else Fraction(abs(ratio)))
+                    ratios[point] = vector / task_vector, math.hypot(2 * self.pencil.point, trace.blur) / abs(vector)
+        return ratios
 
     @cached_property
     def _turned_velocities(self) -> Mapping[str, complex]:
@@ -237,17 +256,6 @@ class OtherDesigns:
         return draw(plan, plan.way_by(drawing.design.ways), replace(drawing.design, **changes))
 
 
-def _quarters(ratio: complex) -> int:
-    """By how many right angles, the nearest, something is turned."""
-    return round(cmath.phase(ratio) / (math.pi / 2)) % 4
-
-
-def _is_turned_squarely(count: int, ratio: complex, sigma: float) -> bool:
-    """Whether so many vectors are turned by a right angle as near as several are drawn, or as one alone is told."""
-    off = abs(cmath.phase(ratio * (-1j) ** _quarters(ratio)))
-    return off < (measures.MAX_TURN_ERROR_RAD if count > 1 else measures.SURE_SIGMAS * sigma)
-
-
 def find_orphans(drawing: Construction, submission: Submission) -> list[int]:
     """The places of the marks that are called as ends of velocities for which the construction has no mark of its own,
     as they end in another point."""
@@ -296,7 +304,9 @@ def gather_velocities(drawing: Construction, submission: Submission, frame: Plan
     turns = Counter[int]()
     for point, vector in vectors.items() if pole else ():
         end = steps.get(submission.traces[ends[point]].label)
-        turn = _quarter_turns(vector, _value(drawing, end) - _value(drawing, pole), frame) if end and pole else None
+        true = (_value(drawing, end) - _value(drawing, pole)) * frame.unit if end and pole else 0
+        turn = quarter_turns(vector / true, measures.MAX_TURN_ERROR_RAD) if true and (
+            abs(vector) > measures.MIN_VECTOR_MM) else None
         turns.update([turn] if turn in FROM_POINTS and turn is not None else [])
     if not turns or not pole:
         return None
@@ -319,14 +329,6 @@ def _vector(submission: Submission, frame: PlanFrame, point: str, drawing: Const
     marks = (complex(*trace.spots[0]) for trace in submission.traces if trace.kind == POINT and trace.label == point)
     start = frame.to_sheet(complex(*map(float, drawing.scene.points[point])))
     return complex(*submission.traces[place].spots[0]) - next(marks, start)
-
-
-def _quarter_turns(vector: complex, true: complex, frame: PlanFrame) -> int | None:
-    """By how many right angles a vector is turned from the true one; None where by no whole number of them."""
-    if not true or abs(vector) < measures.MIN_VECTOR_MM:
-        return None
-    turn = cmath.phase(vector / (true * frame.unit)) / (math.pi / 2)
-    return round(turn) % 4 if abs(turn - round(turn)) * math.pi / 2 < measures.MAX_TURN_ERROR_RAD else None
 
 
 def _value(drawing: Construction, step: Step) -> complex:

@@ -102,21 +102,29 @@ def to_mm(drawing: Construction, composition: Composition, submission: Submissio
     if frame is None:
         return submission, ()
     task, scale = composition.views[MECHANISM].scale, abs(frame.unit) / rough
+    unit = _meant_unit(scale, task, submission.millimetres)
+    if unit == "mm":
+        return submission, ()
+    if unit:
+        mm = measures.DRAWING_UNITS[unit][0]
+        return scale_submission(submission, mm), (said("drawn in {0} (1 unit = {1} mm)", unit_of(unit), digits(mm, 3)),)
+    mm = min(task / scale, rough * least / sheet)  # no larger than the task: its errors are those of a pencil
+    return (replace(scale_submission(submission, mm), millimetres=-math.inf),
+            (said("drawn in a unit of its own (1 unit = {0} mm)", digits(mm, 3)),))
+
+
+def _meant_unit(scale: float, task: float, millimetres: float) -> str | None:
+    """The unit that a drawing is in, by the scale of its mechanism, in units of the drawing for one of the scene, and
+    by how much speaks for mm; None if it is in one of its own."""
     against = {name: against + measures.RESIZED_COST * abs(math.log(scale * mm / task))
                + (0.0 if _is_round_scale(scale * mm, task) else measures.ODD_SCALE_COST)
-               + (submission.millimetres if name != "mm" else 0.0)
+               + (millimetres if name != "mm" else 0.0)
                for name, (mm, against) in measures.DRAWING_UNITS.items()}
     best = min(against, key=against.__getitem__)
-    chance_cost = measures.ODD_SCALE_COST if _is_round_scale(scale * measures.DRAWING_UNITS[best][0], task) else 0.0
-    is_own = against[best] > measures.OWN_UNIT_COST + submission.millimetres + chance_cost  # a round scale is no chance
-    if is_own and abs(math.log(scale / task)) > math.log(measures.SIZE_RATIO):
-        mm = min(task / scale, rough * least / sheet)  # no larger than the task: its errors are those of a pencil
-        return (replace(scale_submission(submission, mm), millimetres=-math.inf),
-                (said("drawn in a unit of its own (1 unit = {0} mm)", digits(mm, 3)),))
-    if is_own or best == "mm":
-        return submission, ()
-    mm = measures.DRAWING_UNITS[best][0]
-    return scale_submission(submission, mm), (said("drawn in {0} (1 unit = {1} mm)", unit_of(best), digits(mm, 3)),)
+    is_round = _is_round_scale(scale * measures.DRAWING_UNITS[best][0], task)  # which is no chance
+    if against[best] <= measures.OWN_UNIT_COST + millimetres + measures.ODD_SCALE_COST * is_round:
+        return best
+    return "mm" if abs(math.log(scale / task)) <= math.log(measures.SIZE_RATIO) else None
 
 
 def _extent(coordinates: Sequence[float]) -> float:
@@ -492,6 +500,13 @@ def frame_turn(fit: Fit, unit: complex) -> float:
     ratio = fit.frame.unit / unit
     sine = 3 * fit.turn + measures.SAME_FRAME_SHARE
     return 0.0 if ratio.real > 0 and abs(ratio.imag) < sine * abs(ratio) else cmath.phase(ratio)
+
+
+def quarter_turns(ratio: complex, within: float) -> int | None:
+    """The number of right angles, 0 to 3, by which a ratio of vectors is turned, within an angle in radians; None if it
+    is turned by another angle."""
+    quarters = round(cmath.phase(ratio) / (math.pi / 2))
+    return quarters % 4 if abs(cmath.phase(ratio * 1j**-quarters)) < within else None
 
 
 def departures(own: Collection[Fit], others: int = 0, *, is_printed: bool) -> float:

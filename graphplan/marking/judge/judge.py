@@ -27,7 +27,7 @@ from graphplan.marking.judge.matching import Matching, count_wrong, matches_on
 from graphplan.marking.judge.numbers import judge_numbers, results_drawn_right, true_results
 from graphplan.marking.judge.search import Search, likelihood, wrong_arrow
 from graphplan.marking.judge.student_sheet import Fit, SharedMarks, StudentSheet
-from graphplan.marking.judge.verdict import WRONG, Judgement
+from graphplan.marking.judge.verdict import WRONG, FaultCount, Judgement
 from graphplan.marking.judge.verdicts import verdicts
 from graphplan.marking.judge.whole_plans import (
     WholePlan,
@@ -56,7 +56,7 @@ def judge(drawing: Construction, composition: Composition, submission: Submissio
     refuse_exact_pencil(pencil)
     submission, unit = to_mm(drawing, composition, submission, pencil)
     return Judge(SheetReading(drawing, composition, submission, unit),
-                 assumed_pencil(pencil, submission)).with_seen_pencil.told
+                 assumed_pencil(pencil, submission)).with_seen_pencil.final_judgement
 
 
 def refuse_exact_pencil(pencil: Pencil) -> None:
@@ -157,8 +157,8 @@ class Judge:
                                             {*chain.from_iterable(self._exchanged)}))
 
     @property
-    def told(self) -> Judgement:
-        """The judgement as it is told: of a picture, nothing that is not sure is called wrong."""
+    def final_judgement(self) -> Judgement:
+        """The judgement that is reported: of a picture, only a sure mistake is called wrong."""
         return self.judgement.without_doubtful_mistakes if self.submission.page else self.judgement
 
     @property
@@ -183,25 +183,25 @@ class Judge:
         return departures(fits, self.reading.departs if MECHANISM in self.printed_panels else 0, is_printed=True)
 
     @property
-    def faults(self) -> tuple[float, int, int]:
-        """Number of marks that are wrong, departures from printed scales among them, and of points whose numbers are
-        left out; of missing ones; and of letters without a use."""
+    def faults(self) -> FaultCount:
+        """Faults of the reading; as wrong count departures from printed scales and points whose numbers are left out,
+        too."""
         count = self.judgement.fault_count
-        return count.wrong + self._departures + self._unused_numbers, count.missing, count.strange_letters
+        return count._replace(wrong=count.wrong + self._departures + self._unused_numbers)
 
     @property
     def has_faults(self) -> bool:
         """Whether something is wrong or missing, or cannot be judged."""
-        return bool(self.orphaned_marks) or any(self.faults[:2])
+        return bool(self.orphaned_marks or self.faults.wrong or self.faults.missing)
 
     def explains_more(self, rival: Judge) -> bool:
         """Whether it leaves fewer faults than a rival, and of no sort more, or else is likelier; not where it calls no
         mark wrong, but leaves some out."""
         if self._unused_numbers and not self.judgement.fault_count.wrong:
             return False
-        fewer, more = (any(one < other for one, other in zip(*pair, strict=True))
-                       for pair in ((self.faults, rival.faults), (rival.faults, self.faults)))
-        return self.weight > rival.weight if fewer == more else fewer
+        pairs = list(zip(self.faults, rival.faults, strict=True))
+        has_fewer, has_more = any(mine < its for mine, its in pairs), any(mine > its for mine, its in pairs)
+        return self.weight > rival.weight if has_fewer == has_more else has_fewer
 
     @property
     def weight(self) -> float:
@@ -217,7 +217,7 @@ class Judge:
                 + sum(measures.KNOWN_MISTAKE_ODDS if kind else measures.UNNAMED_MISTAKE_ODDS for kind in wrong))
 
     @cached_property
-    def first_look(self) -> float:
+    def first_look_weight(self) -> float:
         """Weight of this reading without a search for mistakes: every wrong mark may be one."""
         matching = self.matching(self.fits)
         return self._prior + likelihood(matching) + measures.KNOWN_MISTAKE_ODDS * count_wrong(matching.matches)
@@ -371,10 +371,10 @@ def judge_any_design(drawing: Construction, composition: Composition, submission
     if first.has_faults:
         others = OtherDesigns(first.reading, replace(first.named, letters=()), first.fits[MECHANISM].frame, pencil,
                               plan)
-        for rival in sorted(_judges(others.readings(), first.hand), key=lambda rival: -rival.first_look):
-            if rival.first_look + measures.CLOSER_LOOK_ODDS > best.weight and rival.explains_more(best):
+        for rival in sorted(_judges(others.readings(), first.hand), key=lambda rival: -rival.first_look_weight):
+            if rival.first_look_weight + measures.CLOSER_LOOK_ODDS > best.weight and rival.explains_more(best):
                 best = rival
-    return (best if best is first else best.with_seen_pencil).told
+    return (best if best is first else best.with_seen_pencil).final_judgement
 
 
 def _judges(readings: Iterable[SheetReading], hand: SeenPencil) -> Iterator[Judge]:
@@ -416,11 +416,11 @@ def judge_any_drawing(drawings: Callable[[Iterable[str], Mapping[str, complex]],
                 best = rival
                 places.update(_lettered_places(best))
             if not best.has_faults:
-                return best.told
+                return best.final_judgement
     if best is None:
         assert refusal is not None
         raise refusal
-    return best.told
+    return best.final_judgement
 
 
 def _lettered_places(judge: Judge) -> dict[str, complex]:

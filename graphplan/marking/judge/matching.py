@@ -359,7 +359,7 @@ class Matching:
             self.used |= {match.place} | self.evidence.twins(match.place)
             if match.step.op.gives == LINE and match.state != WRONG and not self.evidence.picture:
                 home = self.sheet.plan_of_step[match.step.index]
-                self.used |= self.evidence.strokes_upon(LINE, home, plain_value(own))
+                self.used |= self.evidence.strokes_upon(LINE, home, plain_value(own))  # no other line's
         self.weight, self._now, self._off = self.weight + match.sharp_weight, None, {}
         return self
 

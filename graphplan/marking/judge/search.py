@@ -6,7 +6,6 @@ way is kept."""
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -22,6 +21,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import KnownMarks, ends_at, unexplained_traces
+from graphplan.marking.judge.frames import quarter_turns
 from graphplan.marking.judge.matching import UNMARKED, Match, Matching
 from graphplan.marking.judge.mistakes import DEEDS, Mistake, lays_off_vector, possible_mistakes, value_of
 from graphplan.marking.judge.student_sheet import distance_apart, plain_value, weigh_mark
@@ -114,10 +114,7 @@ class Search:
 
     def _touched_steps(self, index: int) -> set[int]:
         """The steps that a mistake may change: what follows from it, and the strokes to the marks that do."""
-        moved_steps = {index}
-        for step in self.start.steps[index + 1:]:
-            if not moved_steps.isdisjoint(step.args):
-                moved_steps.add(step.index)
+        moved_steps = {step.index for step in steps_after(self.start.steps, index)}
         return moved_steps | {stroke for stroke, marks in self.start.sheet.marks_on.items()
                               if not moved_steps.isdisjoint(marks)}
 
@@ -186,15 +183,15 @@ class Search:
                         measures.NEIGHBOUR_PROMISE)
 
     def _mistake_guesses(self, matching: Matching, quick: QuickScore, match: Match) -> Iterator[Guess]:
-        """The mistakes that a step may be, those of the table and others: kinds are equally likely, and so is what is
-        of one kind."""
-        step = match.step
+        """The mistakes that a step may be, those of the table and others: steps, kinds and all mistakes of one kind are
+        equally likely."""
+        step, after = match.step, steps_after(matching.steps, match.step.index)
         table = list(possible_mistakes(matching.sheet.drawing.drawn, step, matching.sheet.plan_of_step,
                                        matching.sheet.link_points))
         alike = Counter(mistake.kind for mistake in table)
         for mistake in table:
-            prior = measures.MISTAKE_ODDS - math.log(len(alike)) - math.log(alike[mistake.kind])
-            promise = quick.gain_of(mistake) + prior
+            prior = -math.log(len(matching.steps) * len(alike) * alike[mistake.kind])
+            promise = quick.gain_of(mistake, after) + prior
             if promise > measures.HOPELESS_ODDS:
                 yield Guess(step.index, mistake, prior, promise)
         faint = match.place is None or matching.evidence.weight(match.place) < measures.CLEAR_ODDS
@@ -203,7 +200,16 @@ class Search:
         for place, value in unmatched_traces(matching, step) if faint and match.weight < measures.CLEAR_ODDS else ():
             # a picture's dots are what was drawn: they are tried before all that is but thought of
             yield Guess(step.index, place, prior,
-                        measures.NEIGHBOUR_PROMISE if is_dot else quick.gain(step, value) + prior)
+                        measures.NEIGHBOUR_PROMISE if is_dot else quick.gain(step, value, after) + prior)
+
+
+def steps_after(steps: Sequence[Step], index: int) -> list[Step]:
+    """A step and those that rest on it, in order."""
+    resting = {index}
+    for step in steps[index + 1:]:
+        if not resting.isdisjoint(step.args):
+            resting.add(step.index)
+    return [steps[one] for one in sorted(resting)]
 
 
 def is_clear(match: Match) -> bool:
@@ -264,14 +270,14 @@ class QuickScore:
     def __init__(self, matching: Matching, mistakes: Mapping[int, Mistake]):
         self.matching, self.mistakes = matching, mistakes
         self.own = [plain_value(value) for value in matching.own]
-        self._followers = dict[int, list[Step]]()
 
-    def gain_of(self, mistake: Mistake) -> float:
-        """Gain if a mistake was made; minus infinity if it is impossible."""
+    def gain_of(self, mistake: Mistake, after: Sequence[Step]) -> float:
+        """Gain if a mistake was made at the first of the steps that follow from it; minus infinity if it is
+        impossible."""
         wrong = value_of(mistake.step, self.own, mistake)
-        return -math.inf if wrong is None else self.gain(mistake.step, wrong)
+        return -math.inf if wrong is None else self.gain(mistake.step, wrong, after)
 
-    def gain(self, mistaken: Step, wrong: Value) -> float:
+    def gain(self, mistaken: Step, wrong: Value, after: Sequence[Step]) -> float:
         """Gain if a step made this value; minus infinity if its ink is missing, or no later mark follows from it."""
         matching, at = self.matching, mistaken.index
         values, moved_steps, dead = list(self.own), set[int](), set[int]()
@@ -281,7 +287,7 @@ class QuickScore:
                                              KnownMarks(self.own[:arg], {at: wrong}))
             gain = gain + weight - measures.QUICK_SHARE * matching.matches[arg].weight
             seen_weight += weight
-        for step in self._steps_from(at):
+        for step in after:
             if dead.isdisjoint(step.args) and (step.index == at or not moved_steps.isdisjoint(step.args)):
                 value = wrong if step.index == at else value_of(step, values, self.mistakes.get(step.index))
                 if value is None:
@@ -300,16 +306,6 @@ class QuickScore:
             elif not dead.isdisjoint(step.args):
                 dead.add(step.index)
         return gain - sum(matching.matches[index].weight for index in dead)
-
-    def _steps_from(self, index: int) -> list[Step]:
-        """A step, and those that follow from it."""
-        if index not in self._followers:
-            following = {index}
-            for step in self.matching.steps[index + 1:]:
-                if not following.isdisjoint(step.args):
-                    following.add(step.index)
-            self._followers[index] = [self.matching.steps[one] for one in sorted(following)]
-        return self._followers[index]
 
     def _is_possible(self, step: Step, weight: float) -> bool:
         """Whether a step may be drawn so, by its visible ink: lines are visible, and in a picture all but the ends of
@@ -401,12 +397,10 @@ class RightWay:
     vector: complex
     sigma: float
 
-    def turn_of(self, way: complex, mark_error: float) -> float | None:
+    def turn_of(self, way: complex, mark_error: float) -> int | None:
         """By how much a stroke is turned from it, in right angles, 0 to 3; None where by none of them."""
-        ratio = way / self.vector
-        quarters = round(cmath.phase(ratio) / (math.pi / 2))
         allowed = measures.SAME_FRAME_SHARE + 3 * math.hypot(self.sigma, math.sqrt(2) * mark_error / abs(way))
-        return quarters % 4 if abs(cmath.phase(ratio * 1j**-quarters)) < allowed else None
+        return quarter_turns(way / self.vector, allowed)
 
 
 def wrong_arrow(matching: Matching, submission: Submission) -> Mistake | None:

@@ -93,7 +93,7 @@ class NumberVerdict:
 class FaultCount(NamedTuple):
     """Number of wrong and of missing marks, and of points whose letters a reading does not use."""
 
-    wrong: int
+    wrong: float
     missing: int
     strange_letters: int
 

@@ -182,7 +182,7 @@ def results_alone(drawing: Drawing) -> Drawing:
 
 
 def without_result(drawing: Drawing, seed: int) -> Drawing:
-    """The same without the mark of one vector that is asked for, and all strokes that end there."""
+    """A drawing without the mark of one vector that is asked for, and without the strokes that end there."""
     ends = [key for key in drawing.board.marks if RESULT_END.fullmatch(key[1]) and key[0] != "mechanism"] or [
         key for key in drawing.board.marks if key[1].startswith("v_")]
     if not ends:

@@ -88,7 +88,7 @@ class SheetReading:
 
 def to_mm(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil
           ) -> tuple[Submission, tuple[Said, ...]]:
-    """A drawing in mm of paper, and how its unit is told if it is another."""
+    """A drawing in mm of paper, and the text about its unit if that is another."""
     if submission.frames or math.isinf(submission.millimetres) or MECHANISM not in composition.views:
         return submission, ()
     spots = [spot for trace in submission.traces for spot in trace.spots]

@@ -46,7 +46,7 @@ ODD_SCALE_COST = 1.0  # of a scale that is not round [tuned]
 ROUND_SCALES = (1.0, 2.0, 2.5, 4.0, 5.0, 10.0)  # of a mechanism, times powers of ten: GOST 2.302 has 1:2.5 [practice]
 ROUND_SCALE_TOL = 0.005  # of itself: how far a scale may be off a round one [practice]
 SIZE_RATIO = 4.0  # times as large or small as the task's sheet a drawing is looked at as it is [tuned]
-EXTENT_PERCENTILES = 10.0, 90.0  # of its spots, by which the width of a drawing is told [practice]
+EXTENT_PERCENTILES = 10.0, 90.0  # of its spots, by which the width of a drawing is measured [practice]
 FRAME_TOL_PARTS = 150  # of the size of a drawing: the part of one that its marks may be off a frame [tuned]
 
 # ---- letters: which marks they name ---------------------------------------------------------------------------------
